@@ -33,6 +33,7 @@ static const char *const row_members[] = {"name", "type", "default", "range", "d
 static bool is_identifier(const char *name)
 {
     size_t length = 0;
+
     while (isalnum((unsigned char)name[length]) || name[length] == '_') {
         length++;
     }
@@ -43,6 +44,7 @@ static bool is_identifier(const char *name)
 static bool read_name(struct param *out, const cJSON *json, const char *place, struct error *err)
 {
     char path[ERROR_PLACE_BYTES];
+
     if (!json_read_text(json, &out->name, place, row_members[ROW_NAME], err)) {
         return false;
     }
@@ -58,6 +60,7 @@ static bool read_name(struct param *out, const cJSON *json, const char *place, s
 static const char *canonical(const char *name)
 {
     int i = 0;
+
     while (declared_param_aliases[i].name && strcmp(declared_param_aliases[i].name, name) != 0) {
         i++;
     }
@@ -68,6 +71,7 @@ static bool read_type(struct param *out, const cJSON *json, const char *place, s
 {
     struct suggestion suggestion = {0};
     char path[ERROR_PLACE_BYTES], hint[64];
+
     if (!json_read_text(json, &suggestion.text, place, row_members[ROW_TYPE], err)) {
         return false;
     }
@@ -88,6 +92,7 @@ static bool read_range(struct param *out, const cJSON *json, const char *place, 
     const struct param pair = {.type = param_is_whole(out->type) ? PARAM_INT : PARAM_FLOAT};
     char path[ERROR_PLACE_BYTES];
     double low[4], high[4];
+
     if (!json) {
         return true;
     }
@@ -111,6 +116,7 @@ static bool read_range(struct param *out, const cJSON *json, const char *place, 
 static bool read_default(struct param *out, const cJSON *json, const char *place, struct error *err)
 {
     char path[ERROR_PLACE_BYTES];
+
     if (json) {
         return param_read(out, json, out->def, error_place(path, place, row_members[ROW_DEFAULT]),
                           err);
@@ -128,6 +134,7 @@ static bool read_row(struct param *out, const cJSON *json, const char *place, st
     static const struct param doc = {.type = PARAM_TEXT};
     char path[ERROR_PLACE_BYTES];
     const cJSON *found[ROW_MEMBERS];
+
     *out = (struct param){.doc = ""};
     if (!json_sort_members(json, row_members, found, place, err) ||
         !read_name(out, found[ROW_NAME], place, err) ||
@@ -148,6 +155,7 @@ static bool read_row(struct param *out, const cJSON *json, const char *place, st
 static cJSON *row_json(const struct param *row, const cJSON *json)
 {
     cJSON *out = cJSON_CreateObject();
+
     cJSON_AddStringToObject(out, row_members[ROW_NAME], row->name);
     cJSON_AddStringToObject(out, row_members[ROW_TYPE], param_type_name(row->type));
     if (cJSON_GetObjectItemCaseSensitive(json, row_members[ROW_DEFAULT])) {
@@ -171,6 +179,7 @@ bool declared_params_check(const cJSON *rows, const struct record_type *taken, c
     struct param seen[LIMIT_DECLARED + 1] = {{.name = NULL}};
     const struct record_type before = {.params = seen};
     int count = 0;
+
     if (!cJSON_IsArray(rows)) {
         return error_set(err, ERROR_INVALID, place, "expected a list of parameters");
     }
@@ -201,6 +210,7 @@ bool declared_params_check(const cJSON *rows, const struct record_type *taken, c
 char *declared_params_text(const cJSON *rows)
 {
     cJSON *canonical = cJSON_CreateArray();
+
     for (const cJSON *row = rows->child; row; row = row->next) {
         struct param param;
         read_row(&param, row, "", NULL);
@@ -217,6 +227,7 @@ struct declared_params *declared_params_create(const char *name, const struct re
     struct declared_params *declared = memory_alloc(1, sizeof *declared);
     size_t count = first ? record_type_count(first) : 0;
     cJSON *rows = json_parse(text, strlen(text), NULL);
+
     assert(rows);
     struct param *params =
         memory_alloc(count + (size_t)cJSON_GetArraySize(rows) + 1, sizeof *params);

@@ -15,6 +15,7 @@
 const char *edit_member_text(const cJSON *op, const char *name)
 {
     const cJSON *member = cJSON_GetObjectItemCaseSensitive(op, name);
+
     return cJSON_IsString(member) ? member->valuestring : NULL;
 }
 
@@ -22,6 +23,7 @@ const char *edit_member_text(const cJSON *op, const char *name)
 bool path_split(struct path *path, const char *text, struct error *err)
 {
     char *save = NULL;
+
     path->count = 0;
     snprintf(path->text, sizeof path->text, "%s", text);
     for (char *part = strtok_r(path->text, "/", &save); part; part = strtok_r(NULL, "/", &save)) {
@@ -41,6 +43,7 @@ bool path_is(const struct path *path, int index, const char *name)
 struct node *edit_find_node(const struct editor *editor, const char *id, const char *place)
 {
     struct node *node = scene_find(editor->scene, id);
+
     if (!node) {
         error_set(editor->err, ERROR_NOT_FOUND, place, "there is no node \"%.64s\"", id);
     }
@@ -56,6 +59,7 @@ struct resource *edit_find_resource(const struct editor *editor, const struct re
                                     const char *name, const char *place)
 {
     struct resource *resource = resource_find(resource_list_of(kind, editor->scene), name);
+
     if (!resource) {
         error_set(editor->err, ERROR_NOT_FOUND, place, "there is no %s \"%.64s\"", kind->item,
                   name);
@@ -68,6 +72,7 @@ struct resource *edit_find_resource(const struct editor *editor, const struct re
 cJSON *edit_operation(const char *name, const char *at)
 {
     cJSON *op = cJSON_CreateObject();
+
     cJSON_AddStringToObject(op, "op", name);
     cJSON_AddStringToObject(op, strcmp(name, "insert") == 0 ? "into" : "at", at);
     return op;
@@ -76,6 +81,7 @@ cJSON *edit_operation(const char *name, const char *at)
 cJSON *edit_set_operation(const char *at, cJSON *value)
 {
     cJSON *op = edit_operation("set", at);
+
     cJSON_AddItemToObject(op, "value", value ? value : cJSON_CreateNull());
     return op;
 }
@@ -118,6 +124,7 @@ enum { OPERATION_COUNT = sizeof operations / sizeof operations[0] };
 static const struct operation *find_operation(const cJSON *op)
 {
     const char *name = edit_member_text(op, "op");
+
     for (int i = 0; name && i < OPERATION_COUNT; i++) {
         if (strcmp(operations[i].name, name) == 0) {
             return &operations[i];
@@ -130,6 +137,7 @@ static bool fail_operation(const cJSON *op, const char *place, struct error *err
 {
     const char *name = edit_member_text(op, "op");
     char path[ERROR_PLACE_BYTES], hint[64];
+
     error_place(path, place, "op");
     if (!name) {
         return error_set(err, ERROR_SYNTAX, path,
@@ -207,6 +215,7 @@ static bool check_operation(const cJSON *op, const char *place, struct error *er
 static bool check_form(const cJSON *ops, struct error *err)
 {
     size_t index = 0;
+
     if (!cJSON_IsArray(ops) || !ops->child) {
         return error_set(err, ERROR_SYNTAX, "", "expected an array of operations");
     }
@@ -223,6 +232,7 @@ static bool check_form(const cJSON *ops, struct error *err)
 bool edit_check(const cJSON *ops, struct error *err)
 {
     size_t count = 0;
+
     for (const cJSON *op = cJSON_IsArray(ops) ? ops->child : NULL; op; op = op->next) {
         count++;
     }
@@ -242,6 +252,7 @@ static void roll_back(struct editor *failed)
         .applied = cJSON_CreateArray(),
         .inverse = cJSON_CreateArray(),
     };
+
     for (const cJSON *op = failed->inverse->child; op; op = op->next) {
         bool undone = find_operation(op)->apply(&editor, op);
         assert(undone);

@@ -14,6 +14,7 @@ static void add_text_or_null(cJSON *op, const char *name, const char *text)
 static cJSON *insert_operation(const char *into, const char *before, const char *name, cJSON *value)
 {
     cJSON *op = edit_operation("insert", into);
+
     add_text_or_null(op, "before", before);
     if (name) {
         cJSON_AddStringToObject(op, "name", name);
@@ -25,6 +26,7 @@ static cJSON *insert_operation(const char *into, const char *before, const char 
 static cJSON *move_operation(const char *at, const char *into, const char *before)
 {
     cJSON *op = edit_operation("move", at);
+
     cJSON_AddStringToObject(op, "into", into);
     add_text_or_null(op, "before", before);
     return op;
@@ -48,6 +50,7 @@ static bool find_position(const struct editor *editor, const struct node *parent
 {
     const char *before = edit_member_text(op, "before");
     const struct node *next = before ? scene_find(editor->scene, before) : NULL;
+
     if (next && next->parent == parent) {
         *out = node_position(next);
         return true;
@@ -62,6 +65,7 @@ static bool insert_node(struct editor *editor, const struct path *path, const ch
     char at[PATH_TEXT_BYTES + 1], value_place[ERROR_PLACE_BYTES];
     struct node *parent = edit_find_node(editor, path->part[1], into);
     size_t position;
+
     if (!parent || !find_position(editor, parent, op, into, &position)) {
         return false;
     }
@@ -92,6 +96,7 @@ static bool remove_node(struct editor *editor, const struct path *path, const ch
 {
     char into[PATH_TEXT_BYTES + 1];
     struct node *node = edit_find_node(editor, path->part[1], at);
+
     if (!node) {
         return false;
     }
@@ -129,6 +134,7 @@ static bool move_node(struct editor *editor, const struct path *path, const char
     char from[PATH_TEXT_BYTES + 1];
     size_t position;
     struct node *node = edit_find_node(editor, path->part[1], at);
+
     if (!node) {
         return false;
     }
@@ -169,6 +175,7 @@ static bool find_list_position(const struct editor *editor, const struct resourc
 {
     const char *before = edit_member_text(op, "before");
     const struct resource *next = before ? resource_find(list, before) : NULL;
+
     *out = next ? resource_list_position(list, next) : list->count;
     return !before || next || editor->lenient || fail_before(editor, place, before);
 }
@@ -178,6 +185,7 @@ static cJSON *insert_resource_operation(const struct resource_kind *kind,
 {
     const struct resource *resource = list->items[position];
     char home[PATH_TEXT_BYTES + 1];
+
     snprintf(home, sizeof home, "/%s", kind->list);
     return insert_operation(home, name_at(list, position + 1), kind->array ? NULL : resource->name,
                             resource_json(kind, resource));
@@ -189,6 +197,7 @@ static struct resource *read_resource(const struct editor *editor, const struct 
     const cJSON *value = cJSON_GetObjectItemCaseSensitive(op, "value");
     const char *name = kind->array ? NULL : edit_member_text(op, "name");
     char place[ERROR_PLACE_BYTES];
+
     if (!kind->array && !name) {
         error_set(editor->err, ERROR_INVALID, into, "the name of the %s is missing", kind->item);
         return NULL;
@@ -203,6 +212,7 @@ static bool insert_resource(struct editor *editor, const struct resource_kind *k
     const struct resource_list *list = resource_list_of(kind, editor->scene);
     char at[PATH_TEXT_BYTES + 1];
     size_t position;
+
     if (list->count >= kind->limit) {
         return error_set(editor->err, ERROR_LIMIT, into, "%zu %s are above the maximum %zu",
                          list->count + 1, kind->list, kind->limit);
@@ -229,6 +239,7 @@ static bool remove_resource(struct editor *editor, const struct resource_kind *k
 {
     const struct resource_list *list = resource_list_of(kind, editor->scene);
     struct resource *resource = edit_find_resource(editor, kind, path->part[1], at);
+
     if (!resource) {
         return false;
     }
@@ -252,6 +263,7 @@ static bool move_resource(struct editor *editor, const struct resource_kind *kin
     struct resource *resource = edit_find_resource(editor, kind, path->part[1], at);
     char home[PATH_TEXT_BYTES + 1];
     size_t position;
+
     if (!resource) {
         return false;
     }
@@ -281,6 +293,7 @@ bool edit_insert(struct editor *editor, const cJSON *op)
 {
     const char *into = edit_member_text(op, "into");
     struct path path;
+
     if (!path_split(&path, into, editor->err)) {
         return false;
     }
@@ -298,6 +311,7 @@ bool edit_remove(struct editor *editor, const cJSON *op)
 {
     const char *at = edit_member_text(op, "at");
     struct path path;
+
     if (!path_split(&path, at, editor->err)) {
         return false;
     }
@@ -315,6 +329,7 @@ bool edit_move(struct editor *editor, const cJSON *op)
 {
     const char *at = edit_member_text(op, "at"), *into = edit_member_text(op, "into");
     struct path path;
+
     if (!path_split(&path, at, editor->err)) {
         return false;
     }

@@ -8,6 +8,7 @@ static bool set_value(struct editor *editor, struct record *record, const char *
                       const char *at, const cJSON *value)
 {
     int index = record_type_find(record->type, name);
+
     if (index < 0) {
         return record_type_unknown(record->type, name, at, editor->err);
     }
@@ -25,6 +26,7 @@ static bool set_record(struct editor *editor, struct record *record, const char 
                        const cJSON *value)
 {
     struct record fresh;
+
     record_init(&fresh, record->type);
     if (!cJSON_IsNull(value) && !record_read(&fresh, value, at, editor->err)) {
         record_finish(&fresh);
@@ -48,6 +50,7 @@ static bool set_name(struct editor *editor, struct node *node, struct record *re
     struct scene *scene = editor->scene;
     const struct param *param = &record->type->params[index];
     struct value old = record->values[index], fresh = {0};
+
     param_value_reset(param, &fresh);
     if ((!cJSON_IsNull(value) && !param_value_set(param, &fresh, value, at, editor->err)) ||
         !scene_check_name(scene, resource_kind_named_by(param->type), fresh.text, at,
@@ -81,6 +84,7 @@ static bool set_in_record(struct editor *editor, struct node *node, struct recor
                           const char *name, const char *at, const cJSON *value)
 {
     int index = record_type_find(record->type, name);
+
     if (index < 0) {
         return record_type_unknown(record->type, name, at, editor->err);
     }
@@ -99,6 +103,7 @@ static bool set_in_node(struct editor *editor, const struct path *path, const ch
                         const cJSON *value)
 {
     struct node *node = edit_find_node(editor, path->part[1], at);
+
     if (!node) {
         return false;
     }
@@ -123,6 +128,7 @@ static bool set_in_resource(struct editor *editor, const struct path *path,
                             const struct resource_kind *kind, const char *at, const cJSON *value)
 {
     struct resource *resource = edit_find_resource(editor, kind, path->part[1], at);
+
     if (!resource) {
         return false;
     }
@@ -146,6 +152,7 @@ bool edit_set(struct editor *editor, const cJSON *op)
     const cJSON *value = cJSON_GetObjectItemCaseSensitive(op, "value");
     struct record *const records[] = {&scene->camera, &scene->environment, &scene->render};
     struct path path;
+
     if (!path_split(&path, at, editor->err)) {
         return false;
     }

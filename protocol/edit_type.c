@@ -10,6 +10,7 @@
 static struct record converted(const struct record *from, const struct record_type *type)
 {
     struct record to;
+
     record_init(&to, type);
     for (int i = 0; from->type->params[i].name; i++) {
         const struct param *param = &from->type->params[i];
@@ -34,6 +35,7 @@ static struct record converted_params(const struct scene *scene, const struct re
 {
     struct record to = converted(from, &type->record);
     const struct record_type *params = node_params_type(scene, type, &to);
+
     if (params != to.type) {
         record_finish(&to);
         to = converted(from, params);
@@ -74,6 +76,7 @@ bool edit_set_node_type(struct editor *editor, struct node *node, const char *at
                         const cJSON *value)
 {
     char values[PATH_TEXT_BYTES + 1];
+
     if (!cJSON_IsString(value)) {
         return error_set(editor->err, ERROR_INVALID, at, "expected the name of a type");
     }
@@ -103,6 +106,7 @@ bool edit_set_primitive(struct editor *editor, struct node *node, int index, con
 {
     struct record named, changed, back;
     char values[PATH_TEXT_BYTES + 1];
+
     record_copy(&named, &node->params);
     if (!record_set(&named, index, value, at, editor->err) ||
         !scene_check_name(editor->scene, resource_kind_named_by(PARAM_FUNCTION),
@@ -130,6 +134,7 @@ bool edit_set_resource_type(struct editor *editor, const struct resource_kind *k
 {
     char values[PATH_TEXT_BYTES + 1];
     struct resource *shader;
+
     if (!cJSON_IsString(value)) {
         return error_set(editor->err, ERROR_INVALID, at, "expected the name of a %s", kind->type);
     }
@@ -161,6 +166,7 @@ static void convert_user(struct editor *editor, const struct users *users, struc
                          const char *values)
 {
     struct record changed = converted(record, users->fresh);
+
     change(editor, record, changed, converted(&changed, users->old), values);
 }
 
@@ -178,6 +184,7 @@ static void convert_nodes(struct editor *editor, const struct users *users, stru
 static void convert_users(struct editor *editor, const struct users *users)
 {
     struct scene *scene = editor->scene;
+
     for (const struct resource_kind *kind = resource_kinds; kind->list; kind++) {
         const struct resource_list *list = resource_list_of(kind, scene);
         for (size_t i = 0; i < list->count; i++) {
@@ -197,6 +204,7 @@ bool edit_set_rows(struct editor *editor, const struct resource_kind *kind,
                    struct resource *resource, int index, const char *at, const cJSON *value)
 {
     struct record *record = &resource->record;
+
     if (!cJSON_IsNull(value) && !resource_check_rows(kind, value, at, editor->err)) {
         return false;
     }

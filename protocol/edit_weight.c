@@ -37,6 +37,7 @@ static bool reaches_all_nodes(const struct resource *resource, const char *name)
 static void weigh_place(struct weight *weight, const char *at)
 {
     struct path path;
+
     if (!at || !path_split(&path, at, NULL) || path.count < 2) {
         return;
     }
@@ -57,6 +58,7 @@ static void weigh_place(struct weight *weight, const char *at)
 size_t edit_weight(const struct scene *scene, const cJSON *ops, size_t most)
 {
     struct weight weight = {.scene = scene, .most = most};
+
     for (const cJSON *op = ops ? ops->child : NULL; op && weight.sum <= most; op = op->next) {
         const cJSON *value = cJSON_GetObjectItemCaseSensitive(op, "value");
         weight.sum++;

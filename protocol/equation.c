@@ -87,6 +87,7 @@ static void derive(const struct equation *equation, struct equation_node *node)
 {
     double in[2] = {0, 0};
     bool all_known = true;
+
     node->varies = node->op == EQUATION_AXIS;
     node->weight = 1;
     for (int i = 0; i < equation_arguments(node); i++) {
@@ -102,6 +103,7 @@ static void derive(const struct equation *equation, struct equation_node *node)
 bool equation_add(struct equation *equation, struct equation_node node, uint16_t *out)
 {
     size_t i = 0;
+
     while (i < equation->count && !is_same(&equation->nodes[i], &node)) {
         i++;
     }

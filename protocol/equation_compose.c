@@ -25,6 +25,7 @@ struct maker {
 static uint16_t make(struct maker *m, struct equation_node node)
 {
     uint16_t index = 0;
+
     m->full = m->full || !equation_add(m->equation, node, &index);
     return index;
 }
@@ -77,6 +78,7 @@ static uint16_t smooth(struct maker *m, const uint16_t *in)
 {
     const uint16_t along = two(m, EQUATION_DIVIDE, minus(m, in[2], in[0]), minus(m, in[1], in[0]));
     const uint16_t t = clamp(m, along, number(m, 0), number(m, 1));
+
     return two(m, EQUATION_MULTIPLY, whole(m, t, 2), minus(m, number(m, 3), times(m, 2, t)));
 }
 
@@ -85,6 +87,7 @@ static uint16_t smooth(struct maker *m, const uint16_t *in)
 static uint16_t cheb(struct maker *m, int n, uint16_t x)
 {
     int divisor = 2;
+
     while (divisor < n && n % divisor) {
         divisor++;
     }
@@ -105,6 +108,7 @@ bool equation_compose(struct equation *equation, enum equation_composite which, 
                       uint16_t *out)
 {
     struct maker m = {.equation = equation};
+
     switch (which) {
     case EQUATION_HYPOT:
         *out = call(&m, EQUATION_SQRT,

@@ -39,6 +39,7 @@ static enum level level_of(const struct equation_node *node)
 static void put(struct printer *p, const char *text)
 {
     const size_t length = strlen(text);
+
     if (p->room < p->length + length + 1) {
         p->room = 2 * (p->length + length + 1);
         p->text = memory_resize(p->text, p->room, 1);
@@ -52,6 +53,7 @@ static void print_node(struct printer *p, uint16_t index, enum level least);
 static void print_number(struct printer *p, double value)
 {
     char text[32];
+
     snprintf(text, sizeof text, "%.15g", value);
     if (strtod(text, NULL) != value) {
         snprintf(text, sizeof text, "%.17g", value);
@@ -70,6 +72,7 @@ static void print_two(struct printer *p, const struct equation_node *node, enum 
 static void print_bare(struct printer *p, const struct equation_node *node)
 {
     static const char *const axes[] = {"x", "y", "z"};
+
     switch ((enum equation_op)node->op) {
     case EQUATION_NUMBER:
         print_number(p, node->value);
@@ -125,6 +128,7 @@ static void print_node(struct printer *p, uint16_t index, enum level least)
 {
     const struct equation_node *node = &p->equation->nodes[index];
     const bool bare = level_of(node) >= least;
+
     put(p, bare ? "" : "(");
     print_bare(p, node);
     put(p, bare ? "" : ")");
@@ -138,6 +142,7 @@ char *equation_print(const struct equation *equation, const char *const *letters
                                             [EQUATION_GREATER] = " > ",
                                             [EQUATION_GREATER_EQUAL] = " >= "};
     struct printer p = {.equation = equation, .letters = letters};
+
     print_node(&p, equation->left, SUM);
     put(&p, relations[equation->relation]);
     print_node(&p, equation->right, SUM);

@@ -54,6 +54,7 @@ static void note(struct reader *r, const char *at, const char *format, ...)
 static void note(struct reader *r, const char *at, const char *format, ...)
 {
     struct equation_errors *errors = r->errors;
+
     if (errors->count == EQUATION_ERRORS) {
         return;
     }
@@ -103,6 +104,7 @@ static size_t next_is(struct reader *r, const char *symbol)
 static bool take(struct reader *r, const char *symbol)
 {
     const size_t length = next_is(r, symbol);
+
     r->at += length;
     return length > 0;
 }
@@ -132,6 +134,7 @@ static void note_full(struct reader *r)
 static uint16_t add(struct reader *r, struct equation_node node)
 {
     uint16_t index = 0;
+
     if (!r->ended && !equation_add(r->equation, node, &index)) {
         note_full(r);
     }
@@ -164,6 +167,7 @@ static uint16_t add_power(struct reader *r, uint16_t base, uint16_t exponent, co
 {
     const struct equation_node *node = &r->equation->nodes[exponent];
     const double value = node->constant;
+
     if (!node->known || value != floor(value)) {
         return add_two(r, EQUATION_POWER, base, exponent);
     }
@@ -205,6 +209,7 @@ static uint16_t compose(struct reader *r, enum equation_composite which, const u
 {
     const struct equation_node *degree = &r->equation->nodes[in[0]];
     uint16_t out = 0;
+
     if (which == EQUATION_POW) {
         return add_power(r, in[0], in[1], at);
     }
@@ -225,6 +230,7 @@ static uint16_t compose(struct reader *r, enum equation_composite which, const u
 static size_t read_name(struct reader *r, char out[NAME_BYTES])
 {
     size_t length = 0;
+
     skip_space(r);
     while (isalpha((unsigned char)r->at[length]) || r->at[length] == '_' ||
            (length > 0 && isdigit((unsigned char)r->at[length]))) {
@@ -239,6 +245,7 @@ static size_t read_name(struct reader *r, char out[NAME_BYTES])
 static bool product_of(struct reader *r, const char *name, char out[2 * NAME_BYTES])
 {
     size_t used = 0;
+
     for (const char *c = name; *c && used + 3 < 2 * NAME_BYTES; c++) {
         const char one[] = {*c, '\0'};
         if (find(axes, one) < 0 && find(r->letters, one) < 0) {
@@ -253,6 +260,7 @@ static void note_unknown(struct reader *r, const char *name, bool called, const 
 {
     char product[2 * NAME_BYTES], hint[96];
     struct suggestion near = {.text = name};
+
     if (!called && product_of(r, name, product)) {
         note(r, at, "\"%s\" is no name; write %s", name, product);
         return;
@@ -273,6 +281,7 @@ static void note_unknown(struct reader *r, const char *name, bool called, const 
 static uint16_t value_of(struct reader *r, const char *name, const char *at)
 {
     int arguments;
+
     for (int i = 0; i < r->definition_count; i++) {
         if (strcmp(r->definitions[i].name, name) == 0) {
             return r->definitions[i].node;
@@ -308,6 +317,7 @@ static void expect(struct reader *r, const char *symbol, const char *opener)
 {
     char next[8];
     int line, column;
+
     if (r->ended || take(r, symbol)) {
         return;
     }
@@ -325,6 +335,7 @@ static uint16_t read_call(struct reader *r, const char *name, const char *at)
     const int function = function_of(name, &wanted);
     const char *opener = r->at - 1;
     const bool in_bars = r->in_bars;
+
     r->in_bars = false;
     if (function < 0) {
         note_unknown(r, name, true, at);
@@ -369,6 +380,7 @@ static uint16_t read_named(struct reader *r)
 {
     char name[NAME_BYTES];
     const char *at = r->at;
+
     if (read_name(r, name) >= NAME_BYTES) {
         note(r, at, "names are at most %d letters long", NAME_BYTES - 1);
         return 0;
@@ -397,6 +409,7 @@ static uint16_t read_group(struct reader *r)
 {
     const char *opener = r->at;
     const bool bars = *opener == '|', outer = r->in_bars;
+
     if (!bars) {
         r->at++;
         r->in_bars = false;
@@ -416,6 +429,7 @@ static uint16_t read_group(struct reader *r)
 static uint16_t read_atom(struct reader *r)
 {
     char next[8];
+
     skip_space(r);
     const char c = *r->at;
     if (isdigit((unsigned char)c) || (c == '.' && isdigit((unsigned char)r->at[1]))) {
@@ -448,6 +462,7 @@ static uint16_t read_power(struct reader *r)
 {
     uint16_t base = read_atom(r);
     const char *at = r->at;
+
     if (!r->ended && begins_with(r->at, "\u00b2")) {
         r->at += strlen("\u00b2");
         base = add_whole(r, base, 2);
@@ -467,6 +482,7 @@ static uint16_t read_power(struct reader *r)
 static uint16_t read_unary(struct reader *r)
 {
     uint16_t value = 0;
+
     if (++r->depth > LIMIT_EQUATION_DEPTH && !r->ended) {
         r->ended = true;
         note(r, r->at, "nested deeper than %d levels (equation_depth)", LIMIT_EQUATION_DEPTH);
@@ -487,6 +503,7 @@ static uint16_t read_unary(struct reader *r)
 static bool ends_with(const char *begin, const char *end, const char *with)
 {
     const size_t length = strlen(with);
+
     return (size_t)(end - begin) >= length && memcmp(end - length, with, length) == 0;
 }
 
@@ -495,6 +512,7 @@ static bool ends_with(const char *begin, const char *end, const char *with)
 static bool is_beside(struct reader *r, const char *begin)
 {
     const char *last = r->at;
+
     while (last > begin && (last[-1] == ' ' || last[-1] == '\t' || last[-1] == '\n')) {
         last--;
     }
@@ -515,6 +533,7 @@ static uint16_t read_term(struct reader *r)
 {
     const char *begin = r->at;
     uint16_t value = read_unary(r);
+
     while (!r->ended) {
         if (take(r, "*")) {
             value = add_two(r, EQUATION_MULTIPLY, value, read_unary(r));
@@ -532,6 +551,7 @@ static uint16_t read_term(struct reader *r)
 static uint16_t read_expression(struct reader *r)
 {
     uint16_t value = read_term(r);
+
     while (!r->ended) {
         if (take(r, "+")) {
             value = add_two(r, EQUATION_ADD, value, read_term(r));
@@ -550,6 +570,7 @@ static bool read_definition(struct reader *r)
     struct equation_part next;
     const char *begin = r->at, *at;
     int arguments;
+
     skip_space(r);
     at = r->at;
     if (!(isalpha((unsigned char)*at) || *at == '_') || read_name(r, next.name) >= NAME_BYTES ||
@@ -604,6 +625,7 @@ static void read_relation(struct reader *r)
 static void check_end(struct reader *r)
 {
     char next[8];
+
     skip_space(r);
     if (r->ended || !*r->at) {
         return;
@@ -622,6 +644,7 @@ static void check_end(struct reader *r)
 static void check_varies(struct reader *r)
 {
     const struct equation *equation = r->equation;
+
     if (r->errors->count == 0 && !equation->nodes[equation->left].varies &&
         !equation->nodes[equation->right].varies) {
         note(r, r->text, "no x, y or z: it holds everywhere or nowhere");
@@ -650,6 +673,7 @@ static struct equation *read_text(const char *text, const char *const *letters, 
                        .errors = out_errors,
                        .plain = plain,
                        .relates = relates};
+
     out_errors->count = 0;
     while (!r.ended && read_definition(&r)) {
     }

@@ -12,6 +12,7 @@ enum { PLACE_MEMBER_BYTES = 64 }; /* that are shown of one */
 static void replace_malformed(char *text)
 {
     size_t left = strlen(text);
+
     while (left > 0) {
         size_t count = utf8_sequence(text, left);
         if (count == 0) {
@@ -27,6 +28,7 @@ static bool fill(struct error *err, enum error_kind kind, const char *place, con
                  va_list args)
 {
     char text[sizeof err->message]; /* the arguments may point into err itself */
+
     vsnprintf(text, sizeof text, format, args);
     replace_malformed(text);
     err->kind = kind;
@@ -83,6 +85,7 @@ const char *error_place(char *out, const char *place, const char *member)
     char joined[ERROR_PLACE_BYTES + PLACE_MEMBER_BYTES + 1];
     size_t before = strnlen(place, ERROR_PLACE_BYTES - 1);
     size_t own = strnlen(member, PLACE_MEMBER_BYTES), length = before + 1 + own;
+
     memcpy(joined, place, before);
     joined[before] = '/';
     memcpy(joined + before + 1, member, own);
@@ -100,6 +103,7 @@ const char *error_place(char *out, const char *place, const char *member)
 void error_print(const struct error *err, FILE *out)
 {
     char at[40] = "";
+
     if (err->line > 0) {
         snprintf(at, sizeof at, ":%d:%d", err->line, err->column);
     }
@@ -113,6 +117,7 @@ const char *error_kind_name(enum error_kind kind)
         ERROR_KINDS(X)
 #undef X
     };
+
     return names[kind];
 }
 
@@ -123,5 +128,6 @@ int error_kind_status(enum error_kind kind)
         ERROR_KINDS(X)
 #undef X
     };
+
     return statuses[kind];
 }

@@ -16,6 +16,7 @@ static void put(uint8_t **at, uint64_t value, int bytes)
 static uint64_t take(const uint8_t **at, int bytes)
 {
     uint64_t value = 0;
+
     for (int i = 0; i < bytes; i++) {
         value |= (uint64_t) * (*at)++ << 8 * i;
     }
@@ -27,6 +28,7 @@ void frame_header_pack(const struct frame_header *header, uint8_t out[FRAME_HEAD
     const uint16_t sides[] = {header->width, header->height, header->view_width,
                               header->view_height};
     uint8_t *at = out + 4;
+
     memcpy(out, "FCF1", 4);
     put(&at, VERSION, 1);
     put(&at, header->codec, 1);
@@ -80,6 +82,7 @@ bool frame_header_unpack(const uint8_t *bytes, size_t length, struct frame_heade
 void frame_part_pack(uint32_t number, uint8_t out[FRAME_PART_HEADER_BYTES])
 {
     uint8_t *at = out + 4;
+
     memcpy(out, "FCFP", 4);
     put(&at, number, 4);
 }

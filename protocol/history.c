@@ -59,6 +59,7 @@ static void author_destroy(struct author *author)
 static struct author *find_author(const struct history *history, const char *name)
 {
     struct author *author = history->newest;
+
     while (author && strcmp(author->name, name) != 0) {
         author = author->next;
     }
@@ -73,6 +74,7 @@ static struct stack *stack_of(struct author *author, bool redo)
 static struct author **link_of(struct history *history, const char *name)
 {
     struct author **link = &history->newest;
+
     while (*link && strcmp((*link)->name, name) != 0) {
         link = &(*link)->next;
     }
@@ -83,6 +85,7 @@ static struct author **link_of(struct history *history, const char *name)
 static void forget_oldest(struct history *history)
 {
     struct author **link = &history->newest;
+
     for (int kept = 0; *link && kept < LIMIT_SESSIONS; kept++) {
         link = &(*link)->next;
     }
@@ -98,6 +101,7 @@ static struct author *hear_of(struct history *history, const char *name)
 {
     struct author **link = link_of(history, name);
     struct author *author = *link;
+
     if (author) {
         *link = author->next;
     } else {
@@ -131,6 +135,7 @@ void history_forget(struct history *history, const char *author_name)
 {
     struct author **link = link_of(history, author_name);
     struct author *author = *link;
+
     if (author) {
         *link = author->next;
         author_destroy(author);
@@ -147,6 +152,7 @@ static void record_edit(struct author *author, const struct history_entry *entry
     struct step *step = entry->step ? entry->step : history_prepare(entry);
     struct stack *undo = &author->undo;
     struct step *newest = undo->count > 0 ? undo->items[undo->count - 1] : NULL;
+
     clear(&author->redo);
     bool joins = newest && *step->group && strcmp(step->group, newest->group) == 0;
     if (!joins || !step_join(newest, step)) {
@@ -171,6 +177,7 @@ static void record_move(struct stack *from, struct stack *to, const struct histo
 void history_record(struct history *history, const struct history_entry *entry)
 {
     struct author *author = hear_of(history, entry->author);
+
     drop_above(&author->undo, entry->undo);
     drop_above(&author->redo, entry->redo);
     switch (entry->kind) {
@@ -190,6 +197,7 @@ void history_record(struct history *history, const struct history_entry *entry)
 static bool fail_overwritten(const cJSON *skipped, struct error *err)
 {
     const cJSON *at = cJSON_GetObjectItemCaseSensitive(skipped->child, "at");
+
     return error_set(err, ERROR_CONFLICT, cJSON_GetStringValue(at),
                      "somebody else has changed this since");
 }
@@ -199,6 +207,7 @@ bool history_take(struct history *history, const char *author_name, bool redo,
 {
     struct author *author = find_author(history, author_name);
     struct stack *from = author ? stack_of(author, redo) : NULL;
+
     *out = (struct history_move){0};
     if (!from || from->count == 0) {
         return error_set(err, ERROR_NOT_FOUND, "", "there is nothing to %s",
@@ -214,6 +223,7 @@ bool history_apply(struct history_move *move, struct scene *scene, struct error 
 {
     struct step *step = move->step;
     cJSON *inverse = NULL;
+
     move->skipped = step_take_overwritten(step, scene);
     bool ok = step->count > 0 ? edit_apply_some(scene, step->ops, &move->applied, &inverse, err)
                               : fail_overwritten(move->skipped, err);
@@ -244,6 +254,7 @@ static bool move_step(struct history *history, bool redo, struct scene *scene,
     struct history_move move;
     bool ok =
         history_take(history, author_name, redo, &move, err) && history_apply(&move, scene, err);
+
     if (ok) {
         history_put(history, author_name, redo, &move);
     }
@@ -271,6 +282,7 @@ void history_depth(const struct history *history, const char *author_name, size_
                    size_t *out_redo)
 {
     const struct author *author = find_author(history, author_name);
+
     *out_undo = author ? author->undo.count : 0;
     *out_redo = author ? author->redo.count : 0;
 }
@@ -279,6 +291,7 @@ const cJSON *history_next(const struct history *history, const char *author_name
 {
     const struct author *author = find_author(history, author_name);
     const struct stack *stack = !author ? NULL : redo ? &author->redo : &author->undo;
+
     return stack && stack->count > 0 ? stack->items[stack->count - 1]->ops : NULL;
 }
 
@@ -287,5 +300,6 @@ const char *history_label(const struct history *history, const char *author_name
 {
     const struct author *author = find_author(history, author_name);
     const struct stack *stack = !author ? NULL : redo ? &author->redo : &author->undo;
+
     return stack && index < stack->count ? stack->items[stack->count - 1 - index]->label : NULL;
 }

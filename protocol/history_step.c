@@ -16,6 +16,7 @@ struct place_value {
 static void place_value_destroy(void *item)
 {
     struct place_value *place = item;
+
     free(place->at);
     cJSON_Delete(place->value);
     free(place);
@@ -24,6 +25,7 @@ static void place_value_destroy(void *item)
 static int compare_places(const void *a, const void *b)
 {
     const struct place_value *first = a, *second = b;
+
     return strcmp(first->at, second->at);
 }
 
@@ -35,6 +37,7 @@ static const char *text_of(const cJSON *op, const char *name)
 static bool is_set(const cJSON *op)
 {
     const char *name = text_of(op, "op");
+
     return name && strcmp(name, "set") == 0 && text_of(op, "at");
 }
 
@@ -42,6 +45,7 @@ static struct place_value *find_place(const struct step *step, const char *at)
 {
     struct place_value wanted = {.at = (char *)at};
     void *found = at ? tfind(&wanted, &step->places, compare_places) : NULL;
+
     return found ? *(struct place_value **)found : NULL;
 }
 
@@ -60,6 +64,7 @@ static void remember_record(struct step *step, const char *at)
 {
     char *record = record_of(at);
     char **kept = tsearch(record, &step->records, compare_texts);
+
     if (*kept != record) {
         free(record);
     }
@@ -69,6 +74,7 @@ static void remember_record(struct step *step, const char *at)
 static void remember_place(struct step *step, const char *at, cJSON *value)
 {
     struct place_value *place = find_place(step, at);
+
     if (!place) {
         place = memory_alloc(1, sizeof *place);
         place->at = memory_text(at);
@@ -85,6 +91,7 @@ static bool sets_value(const cJSON *op)
 {
     static const char *const others[] = {"/type",  "/shader", "/primitive",
                                          "/model", "/params", "/properties"};
+
     if (!is_set(op)) {
         return false;
     }
@@ -100,6 +107,7 @@ static bool sets_value(const cJSON *op)
 struct step *step_create(const char *group, const char *label, const cJSON *applied, cJSON *inverse)
 {
     struct step *step = memory_alloc(1, sizeof *step);
+
     step->group = memory_text(group ? group : "");
     step->label = memory_text(label ? label : "");
     step->ops = inverse;
@@ -144,6 +152,7 @@ static void drop_places(struct step *newer, const struct step *step)
 static void take_place(const void *node, VISIT visit, void *data)
 {
     struct place_value *place = *(struct place_value *const *)node;
+
     if (visit == postorder || visit == leaf) {
         remember_place(data, place->at, place->value);
         place->value = NULL;
@@ -182,6 +191,7 @@ static bool is_overwritten(struct scene *scene, const cJSON *op, const struct pl
 {
     cJSON *ops = cJSON_CreateArray(), *inverse = NULL;
     bool overwritten = false;
+
     cJSON_AddItemReferenceToArray(ops, (cJSON *)op);
     if (edit_apply(scene, ops, NULL, &inverse, NULL)) {
         for (const cJSON *back = inverse->child; back; back = back->next) {
@@ -202,6 +212,7 @@ static const struct place_value *left_at(const struct step *step, const char *at
 {
     char *record = record_of(at);
     const bool both = find_place(step, record) || tfind(at, &step->records, compare_texts);
+
     free(record);
     return both ? NULL : find_place(step, at);
 }
@@ -209,6 +220,7 @@ static const struct place_value *left_at(const struct step *step, const char *at
 cJSON *step_take_overwritten(struct step *step, struct scene *scene)
 {
     cJSON *taken = NULL;
+
     for (cJSON *op = step->values ? step->ops->child : NULL, *next; op; op = next) {
         const struct place_value *left = left_at(step, text_of(op, "at"));
         next = op->next;

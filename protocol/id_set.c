@@ -32,6 +32,7 @@ void id_set_copy(struct id_set *to, const struct id_set *from)
 bool id_set_equal(const struct id_set *a, const struct id_set *b)
 {
     size_t i = 0;
+
     while (i < a->count && i < b->count && strcmp(a->ids[i], b->ids[i]) == 0) {
         i++;
     }
@@ -42,6 +43,7 @@ static bool check(const cJSON *list, int most, const char *place, struct error *
 {
     const cJSON *id;
     int index = 0;
+
     if (!cJSON_IsArray(list)) {
         return error_set(err, ERROR_SYNTAX, place, "expected a list of ids");
     }
@@ -73,6 +75,7 @@ bool id_set_read(struct id_set *out, const cJSON *list, int most, const char *pl
     const char *ids[LIMIT_ISOLATED];
     struct id_set all = {.ids = (char **)ids}, once = {.ids = (char **)ids};
     const cJSON *id;
+
     if (!check(list, most, place, err)) {
         return false;
     }
@@ -94,6 +97,7 @@ bool id_set_read(struct id_set *out, const cJSON *list, int most, const char *pl
 cJSON *id_set_print(const struct id_set *set)
 {
     cJSON *list = cJSON_CreateArray();
+
     for (size_t i = 0; i < set->count; i++) {
         cJSON_AddItemToArray(list, cJSON_CreateString(set->ids[i]));
     }

@@ -41,6 +41,7 @@ static bool fail_at(struct scan *scan, size_t at, enum error_kind kind, const ch
 {
     size_t line = 1, column = 1;
     char place[64];
+
     for (size_t i = 0; i < at && i < scan->length; i++) {
         if (scan->text[i] == '\n') {
             line++;
@@ -56,6 +57,7 @@ static bool fail_at(struct scan *scan, size_t at, enum error_kind kind, const ch
 static bool fail_limit(struct scan *scan, size_t at, const char *what, long limit)
 {
     char message[128];
+
     snprintf(message, sizeof message, "%s above the maximum %ld", what, limit);
     return fail_at(scan, at, ERROR_LIMIT, message);
 }
@@ -76,6 +78,7 @@ static bool fail_expected(struct scan *scan, const char *what)
 {
     char message[128];
     int c = peek(scan);
+
     if (c < 0) {
         snprintf(message, sizeof message, "the text ends, expected %s", what);
     } else if (c > 0x20 && c < 0x7f) {
@@ -104,6 +107,7 @@ static void keep_code(struct scan *scan, uint32_t code)
 {
     char bytes[4];
     size_t count = utf8_put(bytes, code);
+
     for (size_t i = 0; i < count; i++) {
         keep_byte(scan, (unsigned char)bytes[i]);
     }
@@ -113,6 +117,7 @@ static void keep_code(struct scan *scan, uint32_t code)
 static int32_t hex4(const struct scan *scan, size_t at)
 {
     int32_t code = 0;
+
     for (size_t i = at; i < at + 4; i++) {
         int c = i < scan->length ? scan->text[i] : -1;
         int digit = c >= '0' && c <= '9'   ? c - '0'
@@ -131,6 +136,7 @@ static bool scan_unicode_escape(struct scan *scan)
 {
     size_t start = scan->at - 1; /* the backslash */
     int32_t code = hex4(scan, scan->at + 1);
+
     if (code < 0) {
         return fail_at(scan, start, ERROR_SYNTAX, "expected four hexadecimal digits after \\u");
     }
@@ -155,6 +161,7 @@ static bool scan_unicode_escape(struct scan *scan)
 static bool scan_escape(struct scan *scan)
 {
     static const char names[] = "\"\\/bfnrt", meanings[] = "\"\\/\b\f\n\r\t";
+
     scan->at++;
     int c = peek(scan);
     if (c == 'u') {
@@ -172,6 +179,7 @@ static bool scan_escape(struct scan *scan)
 static bool scan_utf8(struct scan *scan)
 {
     size_t count = utf8_sequence((const char *)scan->text + scan->at, scan->length - scan->at);
+
     if (count == 0) {
         return fail_at(scan, scan->at, ERROR_SYNTAX, "not UTF-8");
     }
@@ -184,6 +192,7 @@ static bool scan_utf8(struct scan *scan)
 static bool scan_string(struct scan *scan)
 {
     size_t start = scan->at++;
+
     for (;;) {
         int c = peek(scan);
         if (scan->at - start - 1 > LIMIT_JSON_STRING_BYTES) {
@@ -230,6 +239,7 @@ static bool scan_digits(struct scan *scan)
 static bool check_magnitude(struct scan *scan, size_t start, size_t length)
 {
     char text[LIMIT_JSON_NUMBER_BYTES + 1], message[128];
+
     memcpy(text, scan->text + start, length);
     text[length] = '\0';
     if (fabs(strtod(text, NULL)) > NUMBER_MAX) {
@@ -243,6 +253,7 @@ static bool check_magnitude(struct scan *scan, size_t start, size_t length)
 static bool scan_number(struct scan *scan)
 {
     size_t start = scan->at;
+
     scan->at += peek(scan) == '-';
     if (peek(scan) == '0') {
         scan->at++;
@@ -277,6 +288,7 @@ static bool scan_number(struct scan *scan)
 static bool scan_word(struct scan *scan, const char *word)
 {
     size_t length = strlen(word);
+
     if (scan->length - scan->at < length || memcmp(scan->text + scan->at, word, length) != 0) {
         return fail_expected(scan, "a value");
     }
@@ -350,6 +362,7 @@ static int compare_keys(const void *a, const void *b, void *names)
 {
     const struct key *x = a, *y = b;
     int order = compare_names(x, y, names);
+
     return order ? order : x->at < y->at ? -1 : 1;
 }
 
@@ -370,6 +383,7 @@ static bool check_duplicates(struct scan *scan, size_t first)
 {
     struct key *keys = scan->keys + first;
     size_t count = scan->key_count - first;
+
     if (count <= FEW_KEYS && all_differ(keys, count, scan->names)) {
         return true;
     }
@@ -410,6 +424,7 @@ static bool scan_members(struct scan *scan, int depth, size_t first)
 static bool scan_object(struct scan *scan, int depth)
 {
     size_t first = scan->key_count, names = scan->name_length;
+
     scan->at++;
     skip_space(scan);
     if (peek(scan) == '}') {

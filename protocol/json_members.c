@@ -10,6 +10,7 @@ static bool fail_member(const char *name, const char *const *names, const char *
 {
     struct suggestion suggestion = {.text = name};
     char path[ERROR_PLACE_BYTES], hint[64];
+
     for (int i = 0; names[i]; i++) {
         suggest_consider(&suggestion, names[i]);
     }
@@ -44,6 +45,7 @@ bool json_read_text(const cJSON *json, const char **out, const char *place, cons
                     struct error *err)
 {
     char path[ERROR_PLACE_BYTES];
+
     error_place(path, place, member);
     if (!json) {
         return error_set(err, ERROR_INVALID, path, "is missing");

@@ -48,6 +48,7 @@ static int put_digits(uint64_t number, char *out)
 {
     char reversed[20];
     int count = 0;
+
     do {
         reversed[count++] = (char)('0' + number % 10);
         number /= 10;
@@ -63,6 +64,7 @@ static int put_digits(uint64_t number, char *out)
 static bool millionths(double value, struct decimal *out)
 {
     double number = nearbyint(value * MILLION);
+
     if (number < 1 || number > MILLION * MILLION || number / MILLION != value) {
         return false;
     }
@@ -80,6 +82,7 @@ static struct decimal shortest_decimal(double value)
 {
     struct decimal decimal = {.count = 0};
     char text[40];
+
     if (millionths(value, &decimal)) {
         return decimal;
     }
@@ -129,6 +132,7 @@ void json_number(double value, char out[32])
 static void add_number(struct text *text, double value)
 {
     char out[32];
+
     if (fabs(value) < 1e6 && value == trunc(value)) {
         int sign = value < 0;
         out[0] = '-';
@@ -144,6 +148,7 @@ static void add_number(struct text *text, double value)
 static void add_string(struct text *text, const char *string)
 {
     static const char names[] = "\"\\bfnrt", meanings[] = "\"\\\b\f\n\r\t";
+
     add(text, "\"", 1);
     for (const char *c = string; *c;) {
         size_t plain = 0;
@@ -203,6 +208,7 @@ static void add_indent(struct text *text, int indent)
 static void add_items(struct text *text, const cJSON *json, int indent, bool broken)
 {
     bool object = cJSON_IsObject(json);
+
     add(text, object ? "{" : "[", 1);
     for (const cJSON *item = json->child; item; item = item->next) {
         if (item != json->child) {
@@ -258,6 +264,7 @@ static void add_value(struct text *text, const cJSON *json, int indent)
 char *json_print(const cJSON *json, bool pretty)
 {
     struct text text = {.pretty = pretty};
+
     add_value(&text, json, 0);
     if (pretty) {
         add(&text, "\n", 1);

@@ -9,6 +9,7 @@ const struct limit *limits_table(size_t *out_count)
         LIMITS(X)
 #undef X
     };
+
     *out_count = sizeof rows / sizeof rows[0];
     return rows;
 }

@@ -10,6 +10,7 @@
 void *memory_alloc(size_t count, size_t size)
 {
     void *block = calloc(count ? count : 1, size ? size : 1);
+
     if (!block) {
         abort();
     }
@@ -43,6 +44,7 @@ __attribute__((constructor)) static void serve_json(void)
 char *memory_text(const char *text)
 {
     size_t bytes = strlen(text) + 1;
+
     return memcpy(memory_alloc(bytes, 1), text, bytes);
 }
 
@@ -59,5 +61,6 @@ void *memory_open_slot(void *items, size_t count, size_t position)
 void memory_close_slot(void *items, size_t count, size_t position)
 {
     void **slots = items;
+
     memmove(slots + position, slots + position + 1, (count - position - 1) * sizeof *slots);
 }

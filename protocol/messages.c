@@ -213,6 +213,7 @@ static bool check_client(const cJSON *json, const char *place, struct error *err
 {
     const char *text = cJSON_IsString(json) ? json->valuestring : "";
     size_t length = strlen(text);
+
     return (length >= 8 && record_name_valid(text) && !strchr(text, '.')) ||
            error_set(err, ERROR_INVALID, place, "expected 8 to %d of A-Z a-z 0-9 _ -",
                      LIMIT_ID_BYTES);
@@ -221,6 +222,7 @@ static bool check_client(const cJSON *json, const char *place, struct error *err
 static bool check_key(const cJSON *json, const char *place, struct error *err)
 {
     const char *text = cJSON_IsString(json) ? json->valuestring : "";
+
     return (strlen(text) == MESSAGE_KEY_CHARACTERS &&
             strspn(text, "0123456789abcdef") == MESSAGE_KEY_CHARACTERS) ||
            error_set(err, ERROR_INVALID, place, "expected %d of 0-9 a-f", MESSAGE_KEY_CHARACTERS);
@@ -230,6 +232,7 @@ static bool check_nodes(const cJSON *json, int most, const char *place, struct e
 {
     struct id_set ids = {0};
     bool ok = id_set_read(&ids, json, most, place, err);
+
     id_set_finish(&ids);
     return ok;
 }
@@ -240,6 +243,7 @@ static bool check_member(const struct message_member *member, const cJSON *json,
     double number[4];
     struct record camera;
     bool ok;
+
     switch (member->kind) {
     case MEMBER_CLIENT:
         return check_client(json, place, err);
@@ -277,6 +281,7 @@ static bool fail_member(const struct message_type *type, const char *name, const
 {
     struct suggestion suggestion = {.text = name};
     char hint[64];
+
     for (const struct message_member *member = type->members; member->param.name; member++) {
         suggest_consider(&suggestion, member->param.name);
     }
@@ -309,6 +314,7 @@ static bool check_members(const struct message_type *type, const cJSON *json, st
 static bool find_kind(const cJSON *json, enum message_kind *out, struct error *err)
 {
     const char *name = json_member_text(json, "type", NULL);
+
     if (!cJSON_IsObject(json) || !name) {
         return error_set(err, ERROR_SYNTAX, "/type", "expected an object with a text \"type\"");
     }
@@ -330,6 +336,7 @@ static bool find_kind(const cJSON *json, enum message_kind *out, struct error *e
 bool message_read(const char *text, size_t length, struct message *out, struct error *err)
 {
     enum message_kind kind = MESSAGE_COUNT;
+
     if (length > LIMIT_MESSAGE_BYTES) {
         return error_set(err, ERROR_TOO_LARGE, "", "%zu bytes are above the maximum %d", length,
                          LIMIT_MESSAGE_BYTES);
@@ -353,18 +360,21 @@ void message_finish(struct message *message)
 double json_member_number(const cJSON *object, const char *name, double fallback)
 {
     const cJSON *member = cJSON_GetObjectItemCaseSensitive(object, name);
+
     return cJSON_IsNumber(member) ? member->valuedouble : fallback;
 }
 
 const char *json_member_text(const cJSON *object, const char *name, const char *fallback)
 {
     const cJSON *member = cJSON_GetObjectItemCaseSensitive(object, name);
+
     return cJSON_IsString(member) ? member->valuestring : fallback;
 }
 
 bool json_member_bool(const cJSON *object, const char *name, bool fallback)
 {
     const cJSON *member = cJSON_GetObjectItemCaseSensitive(object, name);
+
     return cJSON_IsBool(member) ? cJSON_IsTrue(member) : fallback;
 }
 
@@ -379,6 +389,7 @@ static cJSON *describe_member(const struct message_member *member)
         [MEMBER_OBJECT] = "object",
     };
     cJSON *row;
+
     if (member->kind == MEMBER_VALUE || member->kind == MEMBER_CLIENT ||
         member->kind == MEMBER_KEY) {
         row = param_describe(&member->param);
@@ -396,6 +407,7 @@ static cJSON *describe_member(const struct message_member *member)
 static cJSON *describe_messages(const struct message_type *types, size_t count)
 {
     cJSON *list = cJSON_CreateArray();
+
     for (size_t i = 0; i < count; i++) {
         cJSON *row = cJSON_CreateObject();
         cJSON_AddStringToObject(row, "type", types[i].name);
@@ -412,6 +424,7 @@ static cJSON *describe_messages(const struct message_type *types, size_t count)
 cJSON *messages_describe(void)
 {
     cJSON *both = cJSON_CreateObject();
+
     cJSON_AddItemToObject(both, "client", describe_messages(client_messages, MESSAGE_COUNT));
     cJSON_AddItemToObject(
         both, "server",

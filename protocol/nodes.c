@@ -17,12 +17,14 @@ const char *node_group_name(enum node_group group)
         [GROUP_OPERATION] = "operation", [GROUP_MODIFIER] = "modifier",
         [GROUP_STRUCTURE] = "structure",
     };
+
     return names[group];
 }
 
 size_t node_type_count(void)
 {
     size_t count = 0;
+
     while (node_type_at(count)) {
         count++;
     }

@@ -49,6 +49,7 @@ const char *param_unit_name(enum param_unit unit)
         [UNIT_ANGLE] = "angle",
         [UNIT_DEGREES] = "degrees",
     };
+
     return names[unit];
 }
 
@@ -72,6 +73,7 @@ bool param_is_whole(enum param_type type)
 void param_range(const struct param *param, double *out_min, double *out_max)
 {
     bool bounded = param->min != 0 || param->max != 0;
+
     *out_min = bounded ? param->min : param->type == PARAM_COLOR ? 0 : -LIMIT_COORDINATE;
     *out_max = bounded ? param->max : LIMIT_COORDINATE;
 }
@@ -83,6 +85,7 @@ static const char *part_name(const struct param *param, int part)
 {
     static const char *const axes[] = {" (x)", " (y)", " (z)", " (w)"};
     static const char *const colors[] = {" (red)", " (green)", " (blue)"};
+
     if (param_components(param->type) == 1) {
         return "";
     }
@@ -93,6 +96,7 @@ static const char *part_name(const struct param *param, int part)
 static const char *number_fault(const struct param *param, double number, double *out_limit)
 {
     double min, max;
+
     param_range(param, &min, &max);
     *out_limit = NAN;
     if (!isfinite(number)) {
@@ -116,6 +120,7 @@ static bool check_number(const struct param *param, int part, double number, con
 {
     double limit;
     const char *fault = number_fault(param, number, &limit);
+
     if (!fault) {
         return true;
     }
@@ -132,6 +137,7 @@ static bool read_part(const struct param *param, int part, const cJSON *json, do
                       const char *place, struct error *err)
 {
     const char *of = part_name(param, part);
+
     if (param->type == PARAM_BOOL || param->type == PARAM_BVEC3) {
         *out = cJSON_IsTrue(json);
         return cJSON_IsBool(json) ||
@@ -182,6 +188,7 @@ static bool fail_choice(const struct param *param, const char *text, const char 
 {
     struct suggestion suggestion = {.text = text};
     char hint[64], list[160] = "";
+
     for (int i = 0; param->choices[i]; i++) {
         size_t used = strlen(list);
         snprintf(list + used, sizeof list - used, "%s\"%s\"", i ? ", " : "", param->choices[i]);
@@ -211,6 +218,7 @@ static bool read_points(const struct param *param, const cJSON *json, double *ou
 {
     static const struct param point = {.type = PARAM_VEC2};
     size_t count = 0;
+
     if (!cJSON_IsArray(json)) {
         return error_set(err, ERROR_INVALID, place, "expected a list of points");
     }
@@ -247,6 +255,7 @@ static bool check_characters(const char *text, const char *allowed, const char *
 static bool check_digest(const char *text, const char *place, struct error *err)
 {
     size_t length = strlen(text);
+
     return length == 0 || (length == DIGEST_DIGITS && strspn(text, "0123456789abcdef") == length) ||
            error_set(err, ERROR_INVALID, place, "\"%.80s\" is not %d small hexadecimal digits",
                      text, DIGEST_DIGITS);
@@ -282,6 +291,7 @@ bool param_read(const struct param *param, const cJSON *json, double out[4], con
                 struct error *err)
 {
     struct surface surface;
+
     switch (param->type) {
     case PARAM_SURFACE:
         return surface_read(&surface, json, place, err);
@@ -350,6 +360,7 @@ bool param_value_equal(const struct value *a, const struct value *b)
 static double *points_of(const cJSON *json, size_t count)
 {
     double *points = memory_alloc(2 * count, sizeof *points), *at = points;
+
     for (const cJSON *item = json->child; item; item = item->next) {
         *at++ = item->child->valuedouble + 0.0; /* -0 becomes 0 */
         *at++ = item->child->next->valuedouble + 0.0;
@@ -361,6 +372,7 @@ bool param_value_set(const struct param *param, struct value *value, const cJSON
                      const char *place, struct error *err)
 {
     struct value fresh = {.set = true};
+
     if (!param_read(param, json, fresh.number, place, err)) {
         return false;
     }
@@ -383,12 +395,14 @@ bool param_value_set(const struct param *param, struct value *value, const cJSON
 static cJSON *number_to_json(const struct param *param, double number)
 {
     bool is_bool = param->type == PARAM_BOOL || param->type == PARAM_BVEC3;
+
     return is_bool ? cJSON_CreateBool(number != 0) : cJSON_CreateNumber(number);
 }
 
 static cJSON *numbers_to_json(const struct param *param, const double *numbers, int count)
 {
     cJSON *array = cJSON_CreateArray();
+
     for (int i = 0; i < count; i++) {
         cJSON_AddItemToArray(array, number_to_json(param, numbers[i]));
     }
@@ -398,6 +412,7 @@ static cJSON *numbers_to_json(const struct param *param, const double *numbers, 
 static cJSON *points_to_json(const struct param *param, const struct value *value)
 {
     cJSON *array = cJSON_CreateArray();
+
     for (size_t i = 0; i < (size_t)value->number[0]; i++) {
         cJSON_AddItemToArray(array, numbers_to_json(param, value->points + 2 * i, 2));
     }
@@ -407,6 +422,7 @@ static cJSON *points_to_json(const struct param *param, const struct value *valu
 cJSON *param_value_json(const struct param *param, const struct value *value)
 {
     int components = param_components(param->type);
+
     switch (param->type) {
     case PARAM_POINTS:
         return points_to_json(param, value);
@@ -426,6 +442,7 @@ cJSON *param_value_json(const struct param *param, const struct value *value)
 cJSON *param_default(const struct param *param)
 {
     struct value value = {0};
+
     param_value_reset(param, &value);
     cJSON *json = param_value_json(param, &value);
     param_value_finish(&value);
@@ -435,6 +452,7 @@ cJSON *param_default(const struct param *param)
 cJSON *param_describe(const struct param *param)
 {
     cJSON *row = cJSON_CreateObject();
+
     cJSON_AddStringToObject(row, "name", param->name);
     cJSON_AddStringToObject(row, "type", param_type_name(param->type));
     if (param->unit != UNIT_NONE) {

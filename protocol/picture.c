@@ -158,6 +158,7 @@ const char *const switch_words[] = {"off", "on", "false", "true", NULL};
 int switch_find(const char *word)
 {
     int i = 0;
+
     while (switch_words[i] && strcmp(switch_words[i], word) != 0) {
         i++;
     }

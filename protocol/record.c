@@ -14,6 +14,7 @@ bool record_name_valid(const char *name)
 {
     size_t length = strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
                                  "0123456789_.-");
+
     return length > 0 && length <= LIMIT_ID_BYTES && name[length] == '\0';
 }
 
@@ -28,6 +29,7 @@ bool record_check_name(const char *name, const char *place, struct error *err)
 size_t record_type_count(const struct record_type *type)
 {
     size_t count = 0;
+
     while (type->params[count].name) {
         count++;
     }
@@ -49,6 +51,7 @@ bool record_type_unknown(const struct record_type *type, const char *name, const
 {
     struct suggestion suggestion = {.text = name};
     char hint[64];
+
     for (const struct param *param = type->params; param->name; param++) {
         suggest_consider(&suggestion, param->name);
     }
@@ -59,6 +62,7 @@ bool record_type_unknown(const struct record_type *type, const char *name, const
 void record_init(struct record *record, const struct record_type *type)
 {
     size_t count = record_type_count(type);
+
     record->type = type;
     record->values = memory_alloc(count, sizeof *record->values);
     for (size_t i = 0; i < count; i++) {
@@ -81,6 +85,7 @@ void record_finish(struct record *record)
 void record_copy(struct record *to, const struct record *from)
 {
     size_t count = record_type_count(from->type);
+
     to->type = from->type;
     to->values = memory_alloc(count, sizeof *to->values);
     for (size_t i = 0; i < count; i++) {
@@ -91,6 +96,7 @@ void record_copy(struct record *to, const struct record *from)
 bool record_equal(const struct record *a, const struct record *b)
 {
     int i = 0;
+
     while (a->type->params[i].name && param_value_equal(&a->values[i], &b->values[i])) {
         i++;
     }
@@ -113,6 +119,7 @@ bool record_set(struct record *record, int index, const cJSON *json, const char 
                 struct error *err)
 {
     const struct param *param = &record->type->params[index];
+
     if (cJSON_IsNull(json)) {
         param_value_reset(param, &record->values[index]);
         return true;
@@ -134,6 +141,7 @@ bool record_read_member(struct record *record, const cJSON *member, const char *
 {
     char path[ERROR_PLACE_BYTES];
     int index = record_type_find(record->type, member->string);
+
     error_place(path, place, member->string);
     return index < 0 ? record_type_unknown(record->type, member->string, path, err)
                      : record_read_value(record, index, member, path, err);
@@ -157,6 +165,7 @@ bool record_read(struct record *record, const cJSON *object, const char *place, 
 cJSON *record_get(const struct record *record, int index)
 {
     const struct value *value = &record->values[index];
+
     return value->set ? param_value_json(&record->type->params[index], value) : NULL;
 }
 
@@ -173,6 +182,7 @@ void record_print(const struct record *record, cJSON *object)
 static struct value *named_value(const struct record *record, const char *name)
 {
     int index = record_type_find(record->type, name);
+
     assert(index >= 0);
     return &record->values[index];
 }
@@ -200,6 +210,7 @@ bool record_is_set(const struct record *record, const char *name)
 bool record_is_empty(const struct record *record)
 {
     int i = 0;
+
     while (record->type->params[i].name && !record->values[i].set) {
         i++;
     }
@@ -209,6 +220,7 @@ bool record_is_empty(const struct record *record)
 void record_put(struct record *record, const char *name, double number)
 {
     struct value *value = named_value(record, name);
+
     value->number[0] = number;
     value->set = true;
 }
@@ -216,6 +228,7 @@ void record_put(struct record *record, const char *name, double number)
 void record_put_text(struct record *record, const char *name, const char *text)
 {
     struct value *value = named_value(record, name);
+
     free(value->text);
     value->text = memory_text(text);
     value->set = true;
@@ -224,6 +237,7 @@ void record_put_text(struct record *record, const char *name, const char *text)
 bool record_is(const struct record *record, const char *name, const char *choice)
 {
     int index = record_type_find(record->type, name);
+
     assert(index >= 0 && record->type->params[index].choices);
     return strcmp(record->type->params[index].choices[(int)record->values[index].number[0]],
                   choice) == 0;

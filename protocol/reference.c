@@ -24,6 +24,7 @@ static void add(struct page *page, const char *format, ...)
 {
     char piece[2048];
     va_list args;
+
     va_start(args, format);
     size_t length = (size_t)vsnprintf(piece, sizeof piece, format, args);
     va_end(args);
@@ -40,6 +41,7 @@ static void add_default(struct page *page, const struct param *param)
 {
     cJSON *json = param_default(param);
     char *text = json_print(json, false);
+
     add(page, "%s", strcmp(text, "\"\"") == 0 ? "–" : text);
     free(text);
     cJSON_Delete(json);
@@ -49,6 +51,7 @@ static void add_range(struct page *page, const struct param *param)
 {
     char low[32], high[32];
     double min, max;
+
     if (param->choices) {
         for (int i = 0; param->choices[i]; i++) {
             add(page, "%s`%s`", i ? " " : "", param->choices[i]);
@@ -91,6 +94,7 @@ static void add_node(struct page *page, const struct node_type *type)
 {
     const char *name = type->record.name;
     bool measured = type->group == GROUP_PRIMITIVE || type->group == GROUP_SHAPE;
+
     add(page, "### %s\n<img src=\"reference/%s.jpg\" width=\"192\" height=\"144\" alt=\"\">\n\n%s",
         name, name, type->record.doc);
     if (measured) {
@@ -153,6 +157,7 @@ static void add_limits(struct page *page)
 {
     size_t count;
     const struct limit *limits = limits_table(&count);
+
     add(page, "## Limits\n| limit | | |\n|---|---|---|\n");
     for (size_t i = 0; i < count; i++) {
         add(page, "| `%s` | %ld %s | %s |\n", limits[i].name, limits[i].value, limits[i].unit,

@@ -61,6 +61,7 @@ const struct resource_kind *resource_kind_named_by(enum param_type type)
 struct resource *resource_create(const char *name, const struct record_type *type)
 {
     struct resource *resource = memory_alloc(1, sizeof *resource);
+
     resource->name = memory_text(name);
     record_init(&resource->record, type);
     return resource;
@@ -84,6 +85,7 @@ const struct record_type *resource_type(const struct scene *scene, const struct 
 {
     const struct record_type *type = record_type_in(kind->table, name);
     const struct resource_list *shaders = kind->table == shader_types ? &scene->shaders : NULL;
+
     *out_shader = shaders ? resource_find(shaders, name) : NULL;
     if (type || *out_shader) {
         return type ? type : &(*out_shader)->declared->type;
@@ -133,6 +135,7 @@ struct declared_params *resource_define(const struct resource_kind *kind,
                                         const struct resource *resource)
 {
     int rows = resource_rows(resource->record.type);
+
     return declared_params_create(resource->name, extended(kind),
                                   resource->record.values[rows].text);
 }
@@ -147,6 +150,7 @@ static int compare_resources(const void *a, const void *b)
 struct resource *resource_find(const struct resource_list *list, const char *name)
 {
     const struct resource key = {.name = (char *)name};
+
     struct resource *const *found = tfind(&key, &list->names, compare_resources);
     return found ? *found : NULL;
 }
@@ -164,6 +168,7 @@ void resource_list_insert(struct resource_list *list, struct resource *resource,
 size_t resource_list_position(const struct resource_list *list, const struct resource *resource)
 {
     size_t position = 0;
+
     while (list->items[position] != resource) {
         position++;
     }

@@ -37,6 +37,7 @@ static bool read_definition(struct resource *resource, const struct resource_kin
                             const cJSON *json, const char *place, struct error *err)
 {
     int index = resource_rows(resource->record.type);
+
     if (index < 0) {
         return true;
     }
@@ -84,6 +85,7 @@ static const char *free_name(const struct resource_list *list, const struct reco
                              char out[LIMIT_ID_BYTES + 1])
 {
     int number = 1;
+
     do {
         snprintf(out, LIMIT_ID_BYTES + 1, "%s-%d", type->name, number++);
     } while (resource_find(list, out));
@@ -98,6 +100,7 @@ static const struct record_type *read_type(const struct scene *scene,
 {
     char path[ERROR_PLACE_BYTES];
     const char *name;
+
     *out_shader = NULL;
     if (!kind->type) {
         return kind->table;
@@ -115,6 +118,7 @@ struct resource *resource_read(const struct scene *scene, const struct resource_
 {
     char path[ERROR_PLACE_BYTES], made[LIMIT_ID_BYTES + 1];
     struct resource *shader;
+
     if (!cJSON_IsObject(json)) {
         error_set(err, ERROR_INVALID, place, "expected an object");
         return NULL;

@@ -17,6 +17,7 @@ static void keep(void *item)
 struct scene *scene_create_without_root(void)
 {
     struct scene *scene = memory_alloc(1, sizeof *scene);
+
     record_init(&scene->info, &scene_info_type);
     record_init(&scene->camera, &camera_type);
     record_init(&scene->environment, &environment_type);
@@ -29,6 +30,7 @@ struct scene *scene_create_empty(void)
 {
     struct scene *scene = scene_create_without_root();
     const struct node_type *type = node_type_find("union");
+
     scene->root = node_create(type, &type->record);
     scene->root->id = memory_text("root");
     scene_attach_all(scene, NULL);
@@ -41,6 +43,7 @@ struct scene *scene_create_empty(void)
 static struct node *copy_node(struct scene *scene, const struct node *from)
 {
     struct node *to = memory_alloc(1, sizeof *to);
+
     to->id = memory_text(from->id);
     to->type = from->type;
     to->height = 1;
@@ -59,6 +62,7 @@ static struct resource *copy_resource(struct scene *scene, const struct resource
                                       const struct resource *from)
 {
     struct resource *to = memory_alloc(1, sizeof *to);
+
     to->name = memory_text(from->name);
     to->users = from->users;
     to->level = from->level;
@@ -80,6 +84,7 @@ static struct resource *copy_resource(struct scene *scene, const struct resource
 struct scene *scene_copy(const struct scene *scene)
 {
     struct scene *copy = memory_alloc(1, sizeof *copy);
+
     record_copy(&copy->info, &scene->info);
     record_copy(&copy->camera, &scene->camera);
     record_copy(&copy->environment, &scene->environment);
@@ -135,6 +140,7 @@ void scene_walk(const struct scene *scene,
                 void (*visit)(void *data, const struct node *node, size_t index), void *data)
 {
     size_t index = 0;
+
     for (const struct node *node = scene->root; node; node = node_next(node, scene->root)) {
         visit(data, node, index++);
     }

@@ -13,6 +13,7 @@
 bool scene_read_id(const cJSON *json, const char **out, const char *place, struct error *err)
 {
     char path[ERROR_PLACE_BYTES];
+
     error_place(path, place, "id");
     if (!json) {
         return true;
@@ -28,6 +29,7 @@ bool scene_read_record(struct record *record, const cJSON *json, const char *pla
                        const char *member, struct error *err)
 {
     char path[ERROR_PLACE_BYTES];
+
     error_place(path, place, member);
     return !json || record_read(record, json, path, err);
 }
@@ -36,6 +38,7 @@ bool node_type_unknown(const char *name, const char *place, struct error *err)
 {
     struct suggestion suggestion = {.text = name};
     char hint[64];
+
     for (size_t i = 0; i < node_type_count(); i++) {
         suggest_consider(&suggestion, node_type_at(i)->record.name);
     }
@@ -60,6 +63,7 @@ static bool read_children(struct reader *reader, struct node *node, const cJSON 
                           const char *place, size_t depth)
 {
     char path[ERROR_PLACE_BYTES];
+
     error_place(path, place, "children");
     if (array && !cJSON_IsArray(array)) {
         return error_set(reader->err, ERROR_INVALID, path, "expected an array of nodes");
@@ -86,6 +90,7 @@ static bool read_common(struct record *common, const cJSON *const *found, const 
                         struct error *err)
 {
     char path[ERROR_PLACE_BYTES];
+
     for (int i = 0; common->type->params[i].name; i++) {
         const cJSON *json = found[NODE_COMMON + i];
         error_place(path, place, common->type->params[i].name);
@@ -101,6 +106,7 @@ static bool sort_node_members(const cJSON *json, const cJSON **found, const char
 {
     const char *names[16] = {"id", "type", "transform", "params", "children"};
     size_t count = record_type_count(&node_common_type);
+
     assert(NODE_COMMON + count < sizeof names / sizeof names[0]);
     for (size_t i = 0; i < count; i++) {
         names[NODE_COMMON + i] = node_common_type.params[i].name;
@@ -126,6 +132,7 @@ static const struct node_type *read_node_type(const cJSON *json, const char *pla
 {
     char type_place[ERROR_PLACE_BYTES];
     const char *name;
+
     if (!json_read_text(json, &name, place, "type", err)) {
         return NULL;
     }
@@ -143,6 +150,7 @@ static const struct record_type *read_params_type(struct reader *reader,
 {
     char path[ERROR_PLACE_BYTES];
     const cJSON *name = cJSON_GetObjectItemCaseSensitive(params, "primitive");
+
     if (type->kind != KIND_CODE || !cJSON_IsString(name) || !*name->valuestring) {
         return &type->record;
     }
@@ -162,6 +170,7 @@ static struct node *read_tree(struct reader *reader, const cJSON *json, const ch
     char path[ERROR_PLACE_BYTES];
     struct error *err = reader->err;
     const cJSON *given = cJSON_IsObject(json) ? cJSON_GetObjectItemCaseSensitive(json, "id") : NULL;
+
     if (!scene_read_id(given, &id, place, err)) {
         return NULL;
     }
@@ -195,6 +204,7 @@ struct node *node_read(const struct scene *scene, const cJSON *json, const char 
                        struct error *err)
 {
     struct reader reader = {.scene = scene, .err = err};
+
     return read_tree(&reader, json, place, 1);
 }
 
@@ -214,6 +224,7 @@ static bool read_resources(struct scene *scene, const struct resource_kind *kind
 {
     struct resource_list *list = resource_list_of(kind, scene);
     char home[ERROR_PLACE_BYTES], place[ERROR_PLACE_BYTES], number[24];
+
     error_place(home, "", kind->list);
     if (json && !(kind->array ? cJSON_IsArray(json) : cJSON_IsObject(json))) {
         return error_set(err, ERROR_INVALID, home, "expected an %s of %s",
@@ -259,6 +270,7 @@ static bool read_document(struct scene *scene, const cJSON *document, struct err
 {
     const char *names[16] = {"format", "name", "camera", "environment", "render", "root"};
     const cJSON *found[16];
+
     for (const struct resource_kind *kind = resource_kinds; kind->list; kind++) {
         names[DOC_RESOURCES + (kind - resource_kinds)] = kind->list;
     }
@@ -279,6 +291,7 @@ static bool read_document(struct scene *scene, const cJSON *document, struct err
 struct scene *scene_read(const cJSON *document, struct error *err)
 {
     struct scene *scene = scene_create_without_root();
+
     if (!read_document(scene, document, err)) {
         scene_destroy(scene);
         return NULL;
@@ -290,6 +303,7 @@ struct scene *scene_parse(const char *text, size_t length, struct error *err)
 {
     cJSON *document = json_parse(text, length, err);
     struct scene *scene = document ? scene_read(document, err) : NULL;
+
     cJSON_Delete(document);
     return scene;
 }

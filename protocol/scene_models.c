@@ -23,6 +23,7 @@ static bool fail_circle(const struct search *search)
 {
     char text[256] = "";
     size_t first = 0, used = 0;
+
     while (search->path[first] != search->path[search->count - 1]) {
         first++;
     }
@@ -63,6 +64,7 @@ static bool find_level(struct search *search, struct resource *model)
 bool scene_check_all_models(struct scene *scene, const char *place, struct error *err)
 {
     struct search search = {.scene = scene, .place = place, .err = err};
+
     for (size_t i = 0; i < scene->models.count; i++) {
         scene->models.items[i]->search = UNSEEN;
     }
@@ -78,6 +80,7 @@ bool scene_check_models(struct scene *scene, const struct node *top, const char 
                         struct error *err)
 {
     const struct resource *owner = node_owner(top);
+
     for (const struct node *node = owner ? top : NULL; node; node = node_next(node, top)) {
         const struct resource *named = node_model(scene, node);
         if (named && named->level >= owner->level) {

@@ -9,6 +9,7 @@
 struct node *node_create(const struct node_type *type, const struct record_type *params)
 {
     struct node *node = memory_alloc(1, sizeof *node);
+
     node->type = type;
     node->height = 1;
     record_init(&node->common, &node_common_type);
@@ -64,6 +65,7 @@ static void lower(struct node *node, size_t height)
 void node_remove_child(struct node *child)
 {
     struct node *parent = child->parent;
+
     memory_close_slot(parent->children, parent->child_count, node_position(child));
     parent->child_count--;
     child->parent = NULL;
@@ -73,6 +75,7 @@ void node_remove_child(struct node *child)
 void node_move(struct node *node, struct node *parent, size_t position)
 {
     size_t old = node_position(node);
+
     if (parent != node->parent) {
         node_remove_child(node);
         node_add_child(parent, node, position);
@@ -92,6 +95,7 @@ void node_move(struct node *node, struct node *parent, size_t position)
 size_t node_position(const struct node *node)
 {
     const struct node *parent = node->parent;
+
     if (!parent) {
         return 0;
     }
@@ -125,6 +129,7 @@ struct node *node_next(const struct node *node, const struct node *top)
 size_t node_count(const struct node *node)
 {
     size_t count = 0;
+
     for (const struct node *each = node; each; each = node_next(each, node)) {
         count++;
     }
@@ -134,6 +139,7 @@ size_t node_count(const struct node *node)
 size_t node_depth(const struct node *node)
 {
     size_t depth = 1;
+
     while (node->parent) {
         node = node->parent;
         depth++;
@@ -170,6 +176,7 @@ const struct record_type *node_params_type(const struct scene *scene, const stru
 {
     const struct resource *primitive =
         named(&scene->primitives, type, KIND_CODE, params, "primitive");
+
     return primitive ? &primitive->declared->type : &type->record;
 }
 

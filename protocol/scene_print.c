@@ -6,6 +6,7 @@
 void scene_add_record(cJSON *object, const char *name, const struct record *record)
 {
     cJSON *json = cJSON_CreateObject();
+
     record_print(record, json);
     if (json->child) {
         cJSON_AddItemToObject(object, name, json);
@@ -17,6 +18,7 @@ void scene_add_record(cJSON *object, const char *name, const struct record *reco
 cJSON *node_to_json(const struct node *node)
 {
     cJSON *json = cJSON_CreateObject();
+
     cJSON_AddStringToObject(json, "id", node->id);
     cJSON_AddStringToObject(json, "type", node->type->record.name);
     record_print(&node->common, json);
@@ -34,6 +36,7 @@ cJSON *node_to_json(const struct node *node)
 static void add_resources(cJSON *json, const struct scene *scene, const struct resource_kind *kind)
 {
     const struct resource_list *list = resource_list_of(kind, (struct scene *)scene);
+
     if (list->count == 0) {
         return;
     }
@@ -52,6 +55,7 @@ static void add_resources(cJSON *json, const struct scene *scene, const struct r
 cJSON *scene_to_json(const struct scene *scene)
 {
     cJSON *json = cJSON_CreateObject();
+
     cJSON_AddStringToObject(json, "format", SCENE_FORMAT);
     record_print(&scene->info, json);
     scene_add_record(json, "camera", &scene->camera);
@@ -68,6 +72,7 @@ char *scene_print(const struct scene *scene, bool pretty)
 {
     cJSON *json = scene_to_json(scene);
     char *text = json_print(json, pretty);
+
     cJSON_Delete(json);
     return text;
 }

@@ -19,6 +19,7 @@ static int compare_nodes(const void *a, const void *b)
 struct node *scene_find(const struct scene *scene, const char *id)
 {
     const struct node key = {.id = (char *)id};
+
     struct node *const *found = tfind(&key, &scene->index->nodes, compare_nodes);
     return found ? *found : NULL;
 }
@@ -75,6 +76,7 @@ bool scene_check_name(const struct scene *scene, const struct resource_kind *kin
                       const char *place, struct error *err)
 {
     const struct resource_list *list = resource_list_of(kind, (struct scene *)scene);
+
     if (!*name || resource_find(list, name)) {
         return true;
     }
@@ -94,6 +96,7 @@ static bool each_name(const struct node *node,
                       void *data)
 {
     const struct record *const records[] = {&node->common, &node->params};
+
     for (int r = 0; r < 2; r++) {
         const struct param *params = records[r]->type->params;
         for (int i = 0; params[i].name; i++) {
@@ -118,6 +121,7 @@ static bool check_name(void *data, const struct resource_kind *kind, const char 
 {
     const struct check *check = data;
     char place[ERROR_PLACE_BYTES];
+
     error_place(place, "/nodes", check->node->id);
     if (member) {
         error_place(place, place, member);
@@ -147,6 +151,7 @@ static bool count_user(void *data, const struct resource_kind *kind, const char 
     (void)member;
     (void)param;
     const struct count *count = data;
+
     resource_find(resource_list_of(kind, count->scene), name)->users += (size_t)count->by;
     return true;
 }
@@ -154,6 +159,7 @@ static bool count_user(void *data, const struct resource_kind *kind, const char 
 void scene_count_user(struct scene *scene, const struct node *node, int by)
 {
     struct count count = {.scene = scene, .by = by};
+
     each_name(node, count_user, &count);
 }
 
@@ -170,6 +176,7 @@ static bool check_room(const struct node *parent, const struct node *node, const
                        struct error *err)
 {
     size_t depth = (parent ? node_depth(parent) : 0) + node->height;
+
     if (depth > LIMIT_NODE_DEPTH) {
         return error_set(err, ERROR_LIMIT, place, "%zu levels of nodes are above the maximum %d",
                          depth, LIMIT_NODE_DEPTH);
@@ -192,6 +199,7 @@ bool scene_attach(struct scene *scene, struct node *node, struct node *parent, s
                   const char *place, struct error *err)
 {
     size_t count = node_count(node);
+
     if (!check_count(scene->node_count + count, place, err) ||
         !check_room(parent, node, place, err)) {
         return false;
@@ -225,6 +233,7 @@ static struct node *tree_at(const struct scene *scene, size_t i)
 bool scene_attach_all(struct scene *scene, struct error *err)
 {
     size_t trees = scene->models.count + 1;
+
     for (size_t i = 0; i < trees; i++) {
         scene->node_count += node_count(tree_at(scene, i));
     }
@@ -259,6 +268,7 @@ bool scene_move(struct scene *scene, struct node *node, struct node *parent, siz
 {
     struct node *home = node->parent;
     size_t old = node_position(node);
+
     if (!check_room(parent, node, place, err)) {
         return false;
     }
@@ -278,6 +288,7 @@ bool scene_attach_resource(struct scene *scene, const struct resource_kind *kind
                            struct error *err)
 {
     struct resource_list *list = resource_list_of(kind, scene);
+
     resource_list_insert(list, resource, position);
     if (resource->root && !scene_attach(scene, resource->root, NULL, 0, place, err)) {
         resource_list_remove(list, resource);

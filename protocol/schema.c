@@ -20,6 +20,7 @@
 static cJSON *typed(const char *type)
 {
     cJSON *schema = cJSON_CreateObject();
+
     cJSON_AddStringToObject(schema, "type", type);
     return schema;
 }
@@ -28,6 +29,7 @@ static cJSON *reference(const char *definition)
 {
     char text[96];
     cJSON *schema = cJSON_CreateObject();
+
     snprintf(text, sizeof text, "#/$defs/%s", definition);
     cJSON_AddStringToObject(schema, "$ref", text);
     return schema;
@@ -36,6 +38,7 @@ static cJSON *reference(const char *definition)
 static cJSON *constant(const char *text)
 {
     cJSON *schema = cJSON_CreateObject();
+
     cJSON_AddStringToObject(schema, "const", text);
     return schema;
 }
@@ -43,6 +46,7 @@ static cJSON *constant(const char *text)
 static cJSON *name_schema(void)
 {
     cJSON *schema = typed("string");
+
     cJSON_AddStringToObject(schema, "pattern", NAME_PATTERN);
     return schema;
 }
@@ -51,6 +55,7 @@ static cJSON *number_schema(const struct param *param)
 {
     cJSON *schema = typed(param_is_whole(param->type) ? "integer" : "number");
     double min, max;
+
     param_range(param, &min, &max);
     cJSON_AddNumberToObject(schema, param->above_min ? "exclusiveMinimum" : "minimum", min);
     cJSON_AddNumberToObject(schema, "maximum", max);
@@ -64,6 +69,7 @@ static cJSON *number_schema(const struct param *param)
 static cJSON *vector_schema(cJSON *part, int count)
 {
     cJSON *schema = typed("array");
+
     cJSON_AddItemToObject(schema, "items", part);
     cJSON_AddNumberToObject(schema, "minItems", count);
     cJSON_AddNumberToObject(schema, "maxItems", count);
@@ -73,6 +79,7 @@ static cJSON *vector_schema(cJSON *part, int count)
 static cJSON *numbers_schema(const struct param *param)
 {
     cJSON *schema = vector_schema(number_schema(param), param_components(param->type));
+
     if (param->direction) {
         cJSON *not = cJSON_AddObjectToObject(schema, "not");
         cJSON_AddItemToObject(not, "const", cJSON_CreateIntArray((const int[]){0, 0, 0}, 3));
@@ -91,6 +98,7 @@ static cJSON *choices_schema(const struct param *param)
 {
     cJSON *schema = cJSON_CreateObject();
     cJSON *choices = cJSON_AddArrayToObject(schema, "enum");
+
     for (int i = 0; param->choices[i]; i++) {
         cJSON_AddItemToArray(choices, cJSON_CreateString(param->choices[i]));
     }
@@ -100,6 +108,7 @@ static cJSON *choices_schema(const struct param *param)
 static cJSON *text_schema(const struct param *param)
 {
     cJSON *schema = typed("string");
+
     if (param->type == PARAM_ASSET) {
         cJSON_AddStringToObject(schema, "pattern", "^([0-9a-f]{64})?$");
     } else if (param->type == PARAM_TEXT || param->type == PARAM_CODE ||
@@ -118,6 +127,7 @@ static cJSON *points_schema(const struct param *param)
 {
     static const struct param point = {.type = PARAM_VEC2};
     cJSON *schema = typed("array");
+
     cJSON_AddItemToObject(schema, "items", numbers_schema(&point));
     cJSON_AddNumberToObject(schema, "minItems", param->min);
     cJSON_AddNumberToObject(schema, "maxItems", param->max);
@@ -130,6 +140,7 @@ static cJSON *surface_schema(void)
     static const struct param part = {.type = PARAM_EQUATION}, range = {.type = PARAM_VEC2};
     cJSON *schema = typed("object");
     cJSON *properties = cJSON_AddObjectToObject(schema, "properties");
+
     for (int i = 0; i < SURFACE_MEMBERS; i++) {
         cJSON_AddItemToObject(properties, surface_names[i],
                               i < SURFACE_PARTS ? text_schema(&part) : numbers_schema(&range));
@@ -150,6 +161,7 @@ static cJSON *surface_schema(void)
 static cJSON *names_schema(const char *definition, double most)
 {
     cJSON *schema = typed("object");
+
     cJSON_AddItemToObject(schema, "propertyNames", name_schema());
     cJSON_AddItemToObject(schema, "additionalProperties", reference(definition));
     cJSON_AddNumberToObject(schema, "maxProperties", most);
@@ -159,6 +171,7 @@ static cJSON *names_schema(const char *definition, double most)
 static cJSON *list_schema(const char *definition, double most)
 {
     cJSON *schema = typed("array");
+
     cJSON_AddItemToObject(schema, "items", reference(definition));
     cJSON_AddNumberToObject(schema, "maxItems", most);
     return schema;
@@ -167,6 +180,7 @@ static cJSON *list_schema(const char *definition, double most)
 static cJSON *param_schema(const struct param *param)
 {
     cJSON *schema = NULL;
+
     switch (param->type) {
     case PARAM_FLOAT:
     case PARAM_INT:
@@ -225,6 +239,7 @@ static void add_properties(cJSON *properties, const struct record_type *type)
 static cJSON *closed_object(const char *doc, cJSON **out_properties)
 {
     cJSON *schema = typed("object");
+
     cJSON_AddStringToObject(schema, "description", doc);
     *out_properties = cJSON_AddObjectToObject(schema, "properties");
     cJSON_AddFalseToObject(schema, "additionalProperties");
@@ -234,6 +249,7 @@ static cJSON *closed_object(const char *doc, cJSON **out_properties)
 static cJSON *record_schema(const struct record_type *type)
 {
     cJSON *properties, *schema = closed_object(type->doc, &properties);
+
     add_properties(properties, type);
     return schema;
 }
@@ -241,6 +257,7 @@ static cJSON *record_schema(const struct record_type *type)
 static void require(cJSON *schema, const char *name)
 {
     cJSON *required = cJSON_GetObjectItemCaseSensitive(schema, "required");
+
     if (!required) {
         required = cJSON_AddArrayToObject(schema, "required");
     }
@@ -253,6 +270,7 @@ static cJSON *condition(const char *member, const char *values, const struct rec
 {
     cJSON *rule = cJSON_CreateObject();
     cJSON *properties = cJSON_AddObjectToObject(cJSON_AddObjectToObject(rule, "if"), "properties");
+
     cJSON_AddItemToObject(properties, member, constant(type->name));
     properties = cJSON_AddObjectToObject(cJSON_AddObjectToObject(rule, "then"), "properties");
     cJSON *record = record_schema(type);
@@ -267,6 +285,7 @@ static cJSON *node_schema(void)
 {
     cJSON *properties, *schema = closed_object("A node of the scene.", &properties);
     cJSON *types, *rules;
+
     cJSON_AddItemToObject(properties, "id", name_schema());
     types = cJSON_AddArrayToObject(cJSON_AddObjectToObject(properties, "type"), "enum");
     add_properties(properties, &node_common_type);
@@ -289,6 +308,7 @@ static cJSON *listed_schema(const struct record_type *type)
 {
     cJSON *schema = cJSON_CreateObject();
     cJSON *forms = cJSON_AddArrayToObject(schema, "oneOf");
+
     for (; type->name; type++) {
         cJSON *properties, *form = closed_object(type->doc, &properties);
         cJSON_AddItemToObject(properties, "id", name_schema());
@@ -306,6 +326,7 @@ static cJSON *own_shader_form(void)
     cJSON *properties,
         *form = closed_object("A material of a shader of the document.", &properties);
     cJSON *shader = name_schema(), *names;
+
     names = cJSON_AddArrayToObject(cJSON_AddObjectToObject(shader, "not"), "enum");
     for (const struct record_type *type = shader_types; type->name; type++) {
         cJSON_AddItemToArray(names, cJSON_CreateString(type->name));
@@ -320,6 +341,7 @@ static cJSON *material_schema(void)
 {
     cJSON *schema = cJSON_CreateObject();
     cJSON *forms = cJSON_AddArrayToObject(schema, "oneOf");
+
     for (const struct record_type *type = shader_types; type->name; type++) {
         cJSON *properties, *form = closed_object(type->doc, &properties);
         cJSON_AddItemToObject(properties, "shader", constant(type->name));
@@ -336,6 +358,7 @@ static cJSON *declaration_schema(void)
     static const struct param doc = {.type = PARAM_TEXT}, number = {.type = PARAM_FLOAT};
     cJSON *properties, *schema = closed_object("A parameter that is declared.", &properties);
     cJSON *name = typed("string"), *types;
+
     cJSON_AddStringToObject(name, "pattern", "^(?!gl_)(?!.*__)[A-Za-z_][A-Za-z0-9_]{0,63}$");
     cJSON_AddItemToObject(properties, "name", name);
     types = cJSON_AddArrayToObject(cJSON_AddObjectToObject(properties, "type"), "enum");
@@ -377,6 +400,7 @@ static void add_definitions(cJSON *schema)
                                                  &environment_type, &render_type,
                                                  &primitive_type,   &shader_type};
     cJSON *definitions = cJSON_AddObjectToObject(schema, "$defs");
+
     for (size_t i = 0; i < sizeof records / sizeof records[0]; i++) {
         cJSON_AddItemToObject(definitions, records[i]->name, record_schema(records[i]));
     }
@@ -392,6 +416,7 @@ static void add_definitions(cJSON *schema)
 static cJSON *describe_params(const struct record_type *type)
 {
     cJSON *list = cJSON_CreateArray();
+
     for (const struct param *param = type->params; param->name; param++) {
         cJSON_AddItemToArray(list, param_describe(param));
     }
@@ -402,6 +427,7 @@ static cJSON *describe_params(const struct record_type *type)
 static cJSON *describe_request(const struct record_type *type)
 {
     cJSON *list = describe_params(type), *row;
+
     cJSON_ArrayForEach(row, list)
     {
         cJSON_DeleteItemFromObjectCaseSensitive(row, "default");
@@ -416,12 +442,14 @@ static const char *children_word(const struct node_type *type)
         [GROUP_PRIMITIVE] = "none", [GROUP_SHAPE] = "none",     [GROUP_OPERATION] = "many",
         [GROUP_MODIFIER] = "one",   [GROUP_STRUCTURE] = "many",
     };
+
     return type->kind == KIND_MODEL || type->kind == KIND_CODE ? "none" : words[type->group];
 }
 
 static cJSON *describe_nodes(void)
 {
     cJSON *list = cJSON_CreateArray();
+
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
         cJSON *row = cJSON_CreateObject();
@@ -441,6 +469,7 @@ static cJSON *describe_nodes(void)
 static cJSON *describe_types(const struct record_type *type)
 {
     cJSON *list = cJSON_CreateArray();
+
     for (; type->name; type++) {
         cJSON *row = cJSON_CreateObject();
         cJSON_AddStringToObject(row, "type", type->name);
@@ -455,6 +484,7 @@ static cJSON *describe_types(const struct record_type *type)
 static cJSON *describe_resources(void)
 {
     cJSON *resources = cJSON_CreateObject();
+
     cJSON_AddItemToObject(resources, "primitive", describe_params(&primitive_type));
     cJSON_AddItemToObject(resources, "shader", describe_params(&shader_type));
     cJSON *types = cJSON_AddArrayToObject(resources, "declared_types");
@@ -469,6 +499,7 @@ static cJSON *describe_limits(void)
     size_t count;
     const struct limit *limits = limits_table(&count);
     cJSON *list = cJSON_CreateArray();
+
     for (size_t i = 0; i < count; i++) {
         cJSON *row = cJSON_CreateObject();
         cJSON_AddStringToObject(row, "name", limits[i].name);
@@ -488,6 +519,7 @@ static cJSON *describe_errors(void)
 #undef X
     };
     cJSON *list = cJSON_CreateArray();
+
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         if (kinds[i] != ERROR_NONE) {
             cJSON *row = cJSON_CreateObject();
@@ -502,6 +534,7 @@ static cJSON *describe_errors(void)
 static cJSON *described(const char *name, const char *doc)
 {
     cJSON *row = cJSON_CreateObject();
+
     cJSON_AddStringToObject(row, "name", name);
     cJSON_AddStringToObject(row, "doc", doc);
     return row;
@@ -511,6 +544,7 @@ static cJSON *described(const char *name, const char *doc)
 static cJSON *describe_scale(void)
 {
     cJSON *scale = cJSON_CreateObject(), *colors = cJSON_AddArrayToObject(scale, "colors");
+
     for (int i = 0; i < STEPS_COLORS; i++) {
         const unsigned char *c = steps_colors[i];
         char text[8];
@@ -524,6 +558,7 @@ static cJSON *describe_scale(void)
 static cJSON *describe_outputs(void)
 {
     cJSON *list = cJSON_CreateArray();
+
     for (int i = 0; i < AOV_COUNT; i++) {
         const struct aov_row *aov = aov_row(i);
         cJSON *row = described(aov->name, aov->doc);
@@ -540,6 +575,7 @@ static cJSON *describe_outputs(void)
 static cJSON *describe_levels(void)
 {
     cJSON *list = cJSON_CreateArray();
+
     for (int i = 0; i < QUALITY_COUNT; i++) {
         const struct quality *level = quality_row(i);
         cJSON_AddItemToArray(list, described(quality_names[i], level->doc));
@@ -550,6 +586,7 @@ static cJSON *describe_levels(void)
 static cJSON *describe_stages(void)
 {
     cJSON *list = cJSON_CreateArray();
+
     for (int i = 0; i < FRAME_STAGES; i++) {
         const struct stage_row *stage = stage_row(i);
         cJSON_AddItemToArray(list, described(stage->name, stage->doc));
@@ -560,6 +597,7 @@ static cJSON *describe_stages(void)
 static cJSON *describe_registry(void)
 {
     cJSON *registry = cJSON_CreateObject();
+
     cJSON_AddItemToObject(registry, "nodes", describe_nodes());
     cJSON_AddItemToObject(registry, "node", describe_params(&node_common_type));
     cJSON_AddItemToObject(registry, "transform", describe_params(&transform_type));
@@ -585,6 +623,7 @@ cJSON *schema_build(void)
 {
     cJSON *properties,
         *schema = closed_object("A scene made of signed distance fields.", &properties);
+
     cJSON_AddStringToObject(schema, "$schema", "https://json-schema.org/draft/2020-12/schema");
     cJSON_AddStringToObject(schema, "title", "fieldcast scene document");
     add_document(schema, properties);

@@ -16,6 +16,7 @@ static size_t least(size_t a, size_t b)
 static size_t edit_distance(const char *a, size_t a_length, const char *b, size_t b_length)
 {
     size_t rows[3][LONGEST + 1]; /* the newest three of the table of distances of prefixes */
+
     for (size_t i = 0; i <= a_length; i++) {
         size_t *row = rows[i % 3], *above = rows[(i + 2) % 3], *second = rows[(i + 1) % 3];
         row[0] = i;
@@ -36,6 +37,7 @@ static size_t edit_distance(const char *a, size_t a_length, const char *b, size_
 void suggest_consider(struct suggestion *suggestion, const char *name)
 {
     size_t written = strnlen(suggestion->text, LONGEST + 1), length = strnlen(name, LONGEST + 1);
+
     if (written > LONGEST || length > LONGEST) {
         return;
     }

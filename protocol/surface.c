@@ -22,6 +22,7 @@ static bool read_part(const char **out, const cJSON *json, int member, const cha
 {
     static const struct param expression = {.type = PARAM_EQUATION};
     char path[ERROR_PLACE_BYTES];
+
     error_place(path, place, surface_names[member]);
     if (!json) {
         return error_set(err, ERROR_INVALID, path, "is missing");
@@ -36,6 +37,7 @@ static bool read_range(struct surface_range *out, const cJSON *json, int member,
     static const struct param pair = {.type = PARAM_VEC2};
     char path[ERROR_PLACE_BYTES];
     double numbers[4];
+
     error_place(path, place, surface_names[member]);
     if (!param_read(&pair, json, numbers, path, err)) {
         return false;
@@ -49,6 +51,7 @@ bool surface_read(struct surface *out, const cJSON *json, const char *place, str
 {
     const cJSON *found[SURFACE_MEMBERS];
     int parameters = 0;
+
     *out = (struct surface){0};
     if (!json_sort_members(json, surface_names, found, place, err)) {
         return false;
@@ -77,6 +80,7 @@ char *surface_text(const cJSON *json)
 {
     struct surface surface;
     cJSON *canonical = cJSON_CreateObject();
+
     surface_read(&surface, json, "", NULL);
     for (int i = 0; i < SURFACE_PARTS && surface.parts[i]; i++) {
         cJSON_AddStringToObject(canonical, surface_names[i], surface.parts[i]);

@@ -135,6 +135,7 @@ void confine_files(struct confinement *out, const char *cache_dir)
 {
     const long version =
         syscall(SYS_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION);
+
     if (version < 1) {
         refused(out, "the kernel has no Landlock");
         return;

@@ -38,6 +38,7 @@ struct question {
 static void bound(int resource, rlim_t value)
 {
     const struct rlimit limit = {value, value};
+
     setrlimit(resource, &limit);
 }
 
@@ -45,6 +46,7 @@ static void bound(int resource, rlim_t value)
 static void become(char *const argv[], int output)
 {
     sigset_t none;
+
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
     dup2(output, STDOUT_FILENO);
@@ -62,6 +64,7 @@ static void become(char *const argv[], int output)
 static int start(struct algebra *algebra, const struct question *question)
 {
     int ends[2];
+
     if (pipe2(ends, O_CLOEXEC) != 0) {
         return -1;
     }
@@ -87,6 +90,7 @@ static char *read_answer(int file, const struct question *question)
     char *line = NULL, *last = NULL;
     size_t room = 0;
     FILE *in = fdopen(file, "r");
+
     while (getline(&line, &room, in) > 0) {
         if (last && question->tell) {
             question->tell(question->data, last);
@@ -106,6 +110,7 @@ static int wait_for(struct algebra *algebra)
 {
     int status = 0;
     siginfo_t info;
+
     while (waitid(P_PID, (id_t)algebra->child, &info, WEXITED | WNOWAIT) != 0 && errno == EINTR) {
     }
     pthread_mutex_lock(&algebra->lock);
@@ -121,6 +126,7 @@ static int wait_for(struct algebra *algebra)
 static bool explain(int status, struct error *err)
 {
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+
     if (signal == SIGXCPU || signal == SIGKILL) {
         return error_set(err, ERROR_TOO_SLOW, "",
                          "this took over %d s of processor time (algebra_seconds), or was "
@@ -138,12 +144,14 @@ static bool explain(int status, struct error *err)
 static double number_of(const cJSON *json, const char *name)
 {
     const cJSON *member = cJSON_GetObjectItemCaseSensitive(json, name);
+
     return cJSON_IsNumber(member) ? member->valuedouble : 0;
 }
 
 static const char *text_of(const cJSON *json, const char *name)
 {
     const cJSON *member = cJSON_GetObjectItemCaseSensitive(json, name);
+
     return cJSON_IsString(member) ? member->valuestring : "";
 }
 
@@ -151,6 +159,7 @@ static const char *text_of(const cJSON *json, const char *name)
 static bool check_answer(const cJSON *answer, struct error *err)
 {
     const cJSON *told = cJSON_GetObjectItemCaseSensitive(answer, "error");
+
     if (!told) {
         return true;
     }
@@ -164,6 +173,7 @@ static bool ask(struct algebra *algebra, const struct question *question, cJSON 
 {
     char path[PATH_MAX];
     const ssize_t end = readlink("/proc/self/exe", path, sizeof path - sizeof "-algebra");
+
     if (end <= 0) {
         return error_set(err, ERROR_INTERNAL, "", "/proc/self/exe: %s", strerror(errno));
     }
@@ -197,12 +207,14 @@ bool algebra_implicitize(struct algebra *algebra, enum surface_method method,
                     (char *)texts[1],
                     (char *)texts[2],
                     NULL};
+
     return ask(algebra, &(struct question){.argv = argv}, out, err);
 }
 
 static char *print_params(const struct record *params)
 {
     cJSON *json = cJSON_CreateObject();
+
     record_print(params, json);
     char *text = json_print(json, false);
     cJSON_Delete(json);
@@ -212,6 +224,7 @@ static char *print_params(const struct record *params)
 static void read_proof(const cJSON *answer, struct algebra_proof *out)
 {
     const char *verdict = text_of(answer, "verdict");
+
     out->verdict = SURFACE_NOT_CHECKED;
     for (int i = 0; i < SURFACE_NOT_CHECKED; i++) {
         if (strcmp(verdict, surface_verdicts[i]) == 0) {
@@ -228,6 +241,7 @@ bool algebra_verify(struct algebra *algebra, const struct record *params, struct
     char *argv[] = {NULL, "verify", text, NULL};
     cJSON *answer;
     bool ok = ask(algebra, &(struct question){.argv = argv}, &answer, err);
+
     free(text);
     if (ok) {
         read_proof(answer, out);
@@ -248,6 +262,7 @@ bool algebra_groebner(struct algebra *algebra, const struct record *asked,
     char *argv[] = {NULL, "groebner", text, NULL};
     const bool ok =
         ask(algebra, &(struct question){.argv = argv, .tell = tell, .data = data}, out, err);
+
     free(text);
     return ok;
 }
@@ -266,6 +281,7 @@ void algebra_cancel(struct algebra *algebra, const void *data)
 struct algebra *algebra_create(struct error *err)
 {
     struct algebra *algebra = memory_alloc(1, sizeof *algebra);
+
     pthread_mutex_init(&algebra->lock, NULL);
     algebra->tasks = tasks_create(NULL, err);
     if (!algebra->tasks) {

@@ -37,6 +37,7 @@ struct bases {
 struct bases *bases_create(struct algebra *algebra)
 {
     struct bases *bases = memory_alloc(1, sizeof *bases);
+
     bases->algebra = algebra;
     pthread_mutex_init(&bases->lock, NULL);
     return bases;
@@ -71,6 +72,7 @@ void bases_destroy(struct bases *bases)
 static struct basis *find(const struct bases *bases, const char *id)
 {
     struct basis *basis = bases->first;
+
     while (basis && strcmp(basis->id, id) != 0) {
         basis = basis->next;
     }
@@ -82,6 +84,7 @@ static struct basis *find(const struct bases *bases, const char *id)
 static void keep_step(void *data, const char *line)
 {
     struct basis *basis = data;
+
     pthread_mutex_lock(&basis->bases->lock);
     basis->steps = memory_open_slot(basis->steps, basis->count, basis->count);
     basis->steps[basis->count++] = memory_text(line);
@@ -124,6 +127,7 @@ static void make(void *data, bool dropped)
     const bool made =
         begin(basis, dropped) &&
         algebra_groebner(basis->bases->algebra, &basis->asked, keep_step, basis, &answer, &err);
+
     end(basis, made, answer, &err);
 }
 
@@ -132,6 +136,7 @@ static void make(void *data, bool dropped)
 static bool make_id(char out[BASIS_ID_BYTES], struct error *err)
 {
     unsigned char bytes[(BASIS_ID_BYTES - 1) / 2];
+
     if (getrandom(bytes, sizeof bytes, 0) != sizeof bytes) {
         return error_set(err, ERROR_INTERNAL, "", "no random numbers");
     }
@@ -146,6 +151,7 @@ static bool make_id(char out[BASIS_ID_BYTES], struct error *err)
 static struct basis **find_oldest(struct bases *bases, const char *client, int *out_count)
 {
     struct basis **oldest = NULL;
+
     *out_count = 0;
     for (struct basis **at = &bases->first; *at; at = &(*at)->next) {
         if (!client || strcmp((*at)->client, client) == 0) {
@@ -159,6 +165,7 @@ static struct basis **find_oldest(struct bases *bases, const char *client, int *
 static void drop(struct basis **at)
 {
     struct basis *over = *at;
+
     *at = over->next;
     basis_destroy(over);
 }
@@ -169,6 +176,7 @@ static bool make_room(struct bases *bases, const char *client, struct error *err
 {
     int count;
     struct basis **oldest = find_oldest(bases, client, &count);
+
     if (count >= LIMIT_GROEBNER_SHARE) {
         if (!oldest) {
             err->retry_ms = 1000;
@@ -194,6 +202,7 @@ bool bases_add(struct bases *bases, const char *client, const struct record *ask
                char out_id[BASIS_ID_BYTES], struct error *err)
 {
     struct basis *basis = memory_alloc(1, sizeof *basis);
+
     basis->bases = bases;
     basis->client = memory_text(client);
     record_copy(&basis->asked, asked);
@@ -222,6 +231,7 @@ bool bases_add(struct bases *bases, const char *client, const struct record *ask
 static cJSON *describe_error(const struct error *err)
 {
     cJSON *json = cJSON_CreateObject();
+
     cJSON_AddStringToObject(json, "code", error_kind_name(err->kind));
     cJSON_AddStringToObject(json, "place", err->place);
     cJSON_AddStringToObject(json, "message", err->message);
@@ -235,6 +245,7 @@ static cJSON *describe_error(const struct error *err)
 static cJSON *describe(const struct basis *basis, size_t from)
 {
     cJSON *json = cJSON_CreateObject();
+
     cJSON_AddStringToObject(json, "state", state_names[basis->state]);
     cJSON *steps = cJSON_AddArrayToObject(json, "steps");
     for (size_t i = from; i < basis->count; i++) {

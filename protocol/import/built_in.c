@@ -126,6 +126,7 @@ bool import_fail_type(const struct importing *importing, const struct import_ite
 {
     const char *primitive = import_name_in(type->text, "Primitives");
     const size_t count = node_type_count();
+
     char(*names)[NAME_BYTES] = memory_alloc(count, sizeof *names), hint[96];
     struct suggestion suggestion = {.text = type->text};
 

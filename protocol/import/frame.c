@@ -172,6 +172,7 @@ static struct box node_box(const struct scene *scene, const struct node *node, s
 static void set_vector(struct record *record, const char *name, const double v[3])
 {
     cJSON *json = cJSON_CreateDoubleArray(v, 3);
+
     /* Only what is beyond the largest coordinate is refused; then the default stays. */
     record_set(record, record_type_find(record->type, name), json, "", NULL);
     cJSON_Delete(json);

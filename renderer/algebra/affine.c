@@ -27,6 +27,7 @@ void affine_number(fmpq_t out, double value)
     long exponent = 0;
     size_t used = 0;
     fmpz_t scale;
+
     json_number(value, text);
     for (const char *c = text, *point = NULL; *c; c++) {
         if (*c == 'e') {
@@ -67,6 +68,7 @@ static void scale(struct affine *a, const fmpq_t by, bool divide)
 static bool is_number(const struct affine *a)
 {
     bool others = false;
+
     for (int i = 0; i < AFFINE_TERMS; i++) {
         others = others || (i != AFFINE_ONE && !fmpq_is_zero(a->of[i]));
     }
@@ -112,6 +114,7 @@ static bool read_constant(struct affine *out, const struct equation_node *node)
 {
     const char *name = equation_constants[node->which].name;
     const bool is_pi = strcmp(name, "pi") == 0, is_tau = strcmp(name, "tau") == 0;
+
     fmpq_set_si(out->of[AFFINE_PI], is_tau ? 2 : 1, 1);
     return is_pi || is_tau;
 }
@@ -121,6 +124,7 @@ bool affine_read(struct affine *out, const struct equation *equation, uint16_t i
     const struct equation_node *node = &equation->nodes[index];
     struct affine other;
     bool ok;
+
     switch ((enum equation_op)node->op) {
     case EQUATION_NUMBER:
         affine_number(out->of[AFFINE_ONE], node->value);

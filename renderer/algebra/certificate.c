@@ -19,6 +19,7 @@ struct substitution {
 static void substitution_init(struct substitution *s)
 {
     const struct patch *patch = s->patch;
+
     for (slong i = 0; i <= s->degree; i++) {
         fmpz_mpoly_init(s->z[i], patch->ring);
         fmpz_mpoly_init(s->w[i], patch->ring);
@@ -51,6 +52,7 @@ static void sum_terms(struct substitution *s, const fmpz_mpoly_t f, const fmpz_m
     const fmpz_mpoly_ctx_struct *ring = s->patch->ring;
     fmpz_mpoly_t term;
     fmpz_t coefficient;
+
     fmpz_mpoly_init(term, ring);
     fmpz_init(coefficient);
     for (slong n = 0; n < fmpz_mpoly_length(f, space); n++) {
@@ -70,6 +72,7 @@ bool certificate_is_zero(const struct patch *patch, const fmpz_mpoly_t f,
 {
     struct substitution *s = calloc(1, sizeof *s);
     fmpz_mpoly_t sum, row;
+
     if (!s) {
         return false;
     }
@@ -99,6 +102,7 @@ bool certificate_is_zero(const struct patch *patch, const fmpz_mpoly_t f,
 bool certificate_is_irreducible(const fmpz_mpoly_t f, const fmpz_mpoly_ctx_t space)
 {
     fmpz_mpoly_factor_t factors;
+
     fmpz_mpoly_factor_init(factors, space);
     const bool one = fmpz_mpoly_factor(factors, f, space) &&
                      fmpz_mpoly_factor_length(factors, space) == 1 && fmpz_is_one(&factors->exp[0]);

@@ -25,6 +25,7 @@ struct lifting {
 static void all_monomials(struct monomials *out, slong degree)
 {
     const slong n = degree + 1;
+
     out->degree = degree;
     out->count = 0;
     out->powers = flint_calloc((size_t)(n * (n + 1) * (n + 2) / 6), sizeof *out->powers);
@@ -42,6 +43,7 @@ static void fill_row(mp_limb_t *row, const struct monomials *m, const mp_limb_t 
                      nmod_t mod)
 {
     mp_limb_t powers[3][LIMIT_IMPLICIT_DEGREE + 1];
+
     for (int k = 0; k < 3; k++) {
         const mp_limb_t value = nmod_div(point[k], point[PATCH_W], mod);
         powers[k][0] = 1;
@@ -62,6 +64,7 @@ static bool null_vector(const struct patch *patch, const struct monomials *m, mp
 {
     struct residues r;
     nmod_mat_t matrix, kernel;
+
     residues_init(&r, patch->part, patch->ring, patch_degree(patch), prime);
     nmod_mat_init(matrix, m->count + SURPLUS_ROWS, m->count, prime);
     nmod_mat_init(kernel, m->count, m->count, prime);
@@ -90,6 +93,7 @@ static bool find_support(const struct patch *patch, slong degree, flint_rand_t r
 {
     mp_limb_t prime = UWORD(1) << 29;
     bool ok = false;
+
     all_monomials(out, degree);
     mp_limb_t *vector = flint_calloc((size_t)out->count, sizeof *vector);
     for (int i = 0; !ok && i < TRIES; i++) {
@@ -122,6 +126,7 @@ static bool rebuild(struct lifting *l)
 {
     bool settled = true;
     fmpq *swap = l->values;
+
     l->values = l->before;
     l->before = swap;
     for (slong i = 0; i < l->support.count; i++) {
@@ -140,6 +145,7 @@ static bool lift_all(const struct patch *patch, struct lifting *l, flint_rand_t 
     mp_limb_t prime = UWORD(1) << 60;
     mp_limb_t *vector = flint_calloc((size_t)l->support.count, sizeof *vector);
     bool settled = false;
+
     *out_primes = 0;
     while (!settled && fmpz_bits(l->modulus) <= 2 * LIMIT_COEFFICIENT_BITS) {
         prime = n_nextprime(prime, 0);
@@ -159,6 +165,7 @@ static bool lift_all(const struct patch *patch, struct lifting *l, flint_rand_t 
 static void make_whole(const struct lifting *l, fmpz_mpoly_t out, const fmpz_mpoly_ctx_t space)
 {
     fmpz_t multiple, coefficient, content;
+
     fmpz_init(multiple), fmpz_init(coefficient), fmpz_init(content);
     fmpz_one(multiple);
     for (slong i = 0; i < l->support.count; i++) {
@@ -187,6 +194,7 @@ bool patch_find_equation(const struct patch *patch, slong degree, flint_rand_t r
     bool ok = find_support(patch, degree, random, &l.support) ||
               error_set(err, ERROR_INTERNAL, "", "no single equation of degree %ld", degree);
     const slong count = l.support.count;
+
     l.residues = _fmpz_vec_init(count);
     l.values = _fmpq_vec_init(count);
     l.before = _fmpq_vec_init(count);

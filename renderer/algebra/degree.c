@@ -27,6 +27,7 @@ static slong rank_at(const struct residues rows[3], flint_rand_t random)
     const nmod_t mod = rows[0].mod;
     const mp_limb_t s = n_randint(random, mod.n), t = n_randint(random, mod.n);
     nmod_mat_t matrix;
+
     nmod_mat_init(matrix, 3, PATCH_PARTS, mod.n);
     for (int row = 0; row < 3; row++) {
         for (int i = 0; i < PATCH_PARTS; i++) {
@@ -42,6 +43,7 @@ static slong find_rank(const struct patch *patch, mp_limb_t prime, flint_rand_t 
 {
     struct residues rows[3];
     slong rank = 0;
+
     residues_init(&rows[0], patch->part, patch->ring, patch_degree(patch), prime);
     for (int k = 0; k < 2; k++) {
         fmpz_mpoly_t by[PATCH_PARTS];
@@ -68,6 +70,7 @@ static void shear(const struct residues *r, const mp_limb_t *f, mp_limb_t c, mp_
 {
     const slong side = r->degree + 1;
     mp_limb_t *powers = flint_calloc((size_t)side, sizeof *powers); /* (s + c t)^i by power of t */
+
     powers[0] = 1;
     for (slong i = 0; i < side; i++) {
         for (slong j = 0; i + j < side; j++) {
@@ -90,6 +93,7 @@ static mp_limb_t *plane(const struct residues *r, const mp_limb_t *point, mp_lim
     const size_t size = (size_t)((r->degree + 1) * (r->degree + 1));
     mp_limb_t factors[PATCH_PARTS], sum = 0;
     mp_limb_t *flat = flint_calloc(size, sizeof *flat), *out = flint_calloc(size, sizeof *out);
+
     for (int i = 0; i < PATCH_PARTS; i++) {
         factors[i] = 1 + n_randint(random, r->mod.n - 1);
     }
@@ -118,6 +122,7 @@ static void meet(const struct residues *r, const mp_limb_t *point, mp_limb_t sla
     mp_limb_t *at = flint_calloc((size_t)count, sizeof *at);
     mp_limb_t *values = flint_calloc((size_t)count, sizeof *values);
     nmod_poly_t a, b;
+
     nmod_poly_init_mod(a, r->mod);
     nmod_poly_init_mod(b, r->mod);
     for (slong i = 0; i < count; i++) {
@@ -140,6 +145,7 @@ static slong shared(const struct residues *r, const mp_limb_t *point, mp_limb_t 
                     flint_rand_t random, slong *out_all)
 {
     nmod_poly_t one, other;
+
     nmod_poly_init_mod(one, r->mod);
     nmod_poly_init_mod(other, r->mod);
     meet(r, point, slant, random, one);
@@ -157,6 +163,7 @@ static bool count(const struct residues *r, flint_rand_t random, struct patch_de
     mp_limb_t point[PATCH_PARTS];
     const mp_limb_t slant = 1 + n_randint(random, r->mod.n - 1);
     slong all, of_point;
+
     residues_random_point(r, random, point);
     out->base = shared(r, NULL, slant, random, &all);
     out->map = shared(r, point, slant, random, &of_point) - out->base;
@@ -170,6 +177,7 @@ static bool count(const struct residues *r, flint_rand_t random, struct patch_de
 bool patch_is_surface(const struct patch *patch, flint_rand_t random, struct error *err)
 {
     const slong rank = find_rank(patch, n_nextprime(UWORD(1) << 60, 0), random);
+
     return rank == 3 ||
            error_set(err, ERROR_INVALID, "", "these equations make a %s, not a surface",
                      rank == 2 ? "curve" : "point");
@@ -180,6 +188,7 @@ bool patch_find_degrees(const struct patch *patch, flint_rand_t random, struct p
 {
     const mp_limb_t prime = n_nextprime(UWORD(1) << 60, 0);
     struct residues r;
+
     if (!patch_is_surface(patch, random, err)) {
         return false;
     }

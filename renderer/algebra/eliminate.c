@@ -36,6 +36,7 @@ static void set_part(struct elimination *e, fmpz_mpoly_t out, int part, int firs
 {
     const struct patch *patch = e->patch;
     fmpz_t coefficient;
+
     fmpz_init(coefficient);
     fmpz_mpoly_zero(out, e->plain);
     for (slong n = 0; n < fmpz_mpoly_length(patch->part[part], patch->ring); n++) {
@@ -57,6 +58,7 @@ static void set_part(struct elimination *e, fmpz_mpoly_t out, int part, int firs
 static void add_generator(struct elimination *e, const fmpz_mpoly_t f)
 {
     struct polynomial g;
+
     polynomial_init(&g, &e->ring);
     polynomial_set(&g, f, e->plain, &e->ring);
     groebner_add(&e->basis, &g);
@@ -69,6 +71,7 @@ static void get_equation(struct elimination *e, int element, int first, fmpz_mpo
 {
     fmpz_mpoly_t all;
     fmpz_t coefficient;
+
     fmpz_init(coefficient);
     fmpz_mpoly_init(all, e->plain);
     polynomial_get(all, e->plain, &e->basis.elements[element], &e->ring);
@@ -102,6 +105,7 @@ static bool take_equation(struct elimination *e, int first, fmpz_mpoly_t out,
 static void add_homogeneous(struct elimination *e, slong degree)
 {
     fmpz_mpoly_t f, letter;
+
     fmpz_mpoly_init(f, e->plain);
     fmpz_mpoly_init(letter, e->plain);
     for (int part = 0; part < PATCH_PARTS; part++) {
@@ -122,6 +126,7 @@ bool eliminate_homogeneous(const struct patch *patch, fmpz_mpoly_t out,
     struct elimination e;
     struct order_params order = {
         .kind = ORDER_GREVLEX, .letters = HOMOGENEOUS_LETTERS, .eliminate = HOMOGENEOUS_X};
+
     for (int i = 0; i < HOMOGENEOUS_LETTERS; i++) {
         order.weights[i] = i < HOMOGENEOUS_X ? 1 : (unsigned)degree;
     }
@@ -141,6 +146,7 @@ bool eliminate_homogeneous(const struct patch *patch, fmpz_mpoly_t out,
 static void add_saturated(struct elimination *e)
 {
     fmpz_mpoly_t f, letter, under;
+
     fmpz_mpoly_init(f, e->plain);
     fmpz_mpoly_init(letter, e->plain);
     fmpz_mpoly_init(under, e->plain);
@@ -166,6 +172,7 @@ bool eliminate_saturated(const struct patch *patch, fmpz_mpoly_t out, const fmpz
                          struct groebner_counts *out_counts, struct error *err)
 {
     struct elimination e;
+
     elimination_init(&e, patch,
                      &(struct order_params){.kind = ORDER_GREVLEX,
                                             .letters = SATURATED_LETTERS,

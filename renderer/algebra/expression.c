@@ -41,6 +41,7 @@ bool expression_refuse(const struct equation_node *node, struct error *err)
 static void number_value(struct fraction *out, double value, const fmpz_mpoly_ctx_t ring)
 {
     fmpq_t number;
+
     fmpq_init(number);
     affine_number(number, value);
     fraction_set_fmpq(out, number, ring);
@@ -51,6 +52,7 @@ static bool find_value(const struct expression *e, struct fraction *values, uint
 {
     const struct equation_node *node = &e->equation->nodes[index];
     struct fraction *out = &values[index], *a = &values[node->args[0]], *b = &values[node->args[1]];
+
     switch ((enum equation_op)node->op) {
     case EQUATION_NUMBER:
         number_value(out, node->value, e->ring);
@@ -92,6 +94,7 @@ bool expression_value(const struct expression *e, uint16_t root, struct fraction
     const size_t count = root + 1u;
     bool needed[LIMIT_EQUATION_NODES + 1] = {false};
     struct fraction *values = calloc(count, sizeof *values);
+
     if (!values) {
         return error_set(e->err, ERROR_INTERNAL, "", "out of memory");
     }

@@ -35,6 +35,7 @@ static bool check_limits(const fmpz_mpoly_t f, const fmpz_mpoly_ctx_t ring, stru
 {
     const slong degree = fmpz_mpoly_total_degree_si(f, ring);
     const slong bits = labs(fmpz_mpoly_max_bits(f));
+
     if (degree > LIMIT_PARAMETRIC_DEGREE) {
         return error_set(err, ERROR_LIMIT, "",
                          "a polynomial of degree %ld; the limit is %d (parametric_degree)", degree,
@@ -51,6 +52,7 @@ static bool check_product(const fmpz_mpoly_t a, const fmpz_mpoly_t b, const fmpz
                           struct error *err)
 {
     const slong degree = fmpz_mpoly_total_degree_si(a, ring) + fmpz_mpoly_total_degree_si(b, ring);
+
     return degree <= 2 * LIMIT_PARAMETRIC_DEGREE ||
            error_set(err, ERROR_LIMIT, "",
                      "a polynomial of degree %ld; the limit is %d (parametric_degree)", degree,
@@ -61,6 +63,7 @@ static bool reduce(struct fraction *f, const fmpz_mpoly_ctx_t ring, struct error
 {
     fmpz_mpoly_t divisor;
     fmpz_t first;
+
     fmpz_mpoly_init(divisor, ring);
     fmpz_init(first);
     bool ok = fmpz_mpoly_gcd(divisor, f->over, f->under, ring) ||
@@ -94,6 +97,7 @@ bool fraction_add(struct fraction *out, const struct fraction *a, const struct f
                   const fmpz_mpoly_ctx_t ring, struct error *err)
 {
     fmpz_mpoly_t left, right;
+
     if (!check_product(a->over, b->under, ring, err) ||
         !check_product(b->over, a->under, ring, err) ||
         !check_product(a->under, b->under, ring, err)) {
@@ -132,6 +136,7 @@ bool fraction_invert(struct fraction *out, const struct fraction *f, const fmpz_
                      struct error *err)
 {
     fmpz_mpoly_t over;
+
     fmpz_mpoly_init(over, ring);
     fmpz_mpoly_set(over, f->over, ring);
     const bool ok = fraction_set_quotient(out, f->under, over, ring, err);
@@ -144,6 +149,7 @@ bool fraction_power(struct fraction *out, const struct fraction *f, long exponen
 {
     struct fraction base;
     fmpq_t one;
+
     fraction_init(&base, ring);
     fmpq_init(one);
     fmpq_one(one);

@@ -40,6 +40,7 @@ static void leading(const struct groebner *g, int element, exponents out)
 static ulong degree_of(const struct groebner *g, const ulong *a)
 {
     ulong sum = 0;
+
     for (int i = 0; i < g->ring->order.letters; i++) {
         sum += a[i];
     }
@@ -59,6 +60,7 @@ static bool divides(const struct groebner *g, const ulong *a, const ulong *b)
 bool groebner_is_free(const struct groebner *g, int element, int letters)
 {
     const struct polynomial *f = &g->elements[element];
+
     for (slong n = 0; n < polynomial_terms(f, g->ring); n++) {
         exponents a;
         polynomial_exponents(f, n, g->ring, a);
@@ -76,6 +78,7 @@ bool groebner_is_free(const struct groebner *g, int element, int letters)
 static void append(struct groebner *g, struct polynomial *f, ulong sugar)
 {
     const size_t room = (size_t)g->count + 1;
+
     g->elements = memory_resize(g->elements, room, sizeof *g->elements);
     g->sugar = memory_resize(g->sugar, room, sizeof *g->sugar);
     polynomial_init(&g->elements[g->count], g->ring);
@@ -98,6 +101,7 @@ static const struct polynomial **list_divisors(const struct groebner *g, int wit
 {
     const struct polynomial **list =
         memory_alloc((size_t)g->count + 1, sizeof(struct polynomial *));
+
     *out_count = 0;
     for (int i = 0; i < g->count; i++) {
         exponents a, b;
@@ -121,6 +125,7 @@ static slong reduce(const struct groebner *g, struct polynomial *f, int without)
     struct division division;
     int count;
     const struct polynomial **divisors = list_divisors(g, without, &count);
+
     division_init(&division, count, g->ring);
     polynomial_divide(&division, f, divisors, g->ring);
     polynomial_swap(f, &division.rest, g->ring);
@@ -148,6 +153,7 @@ static struct pair make_pair(const struct groebner *g, int i, int j)
 {
     struct pair pair = {.i = i, .j = j};
     exponents a, b;
+
     leading(g, i, a);
     leading(g, j, b);
     for (int k = 0; k < g->ring->order.letters; k++) {
@@ -173,6 +179,7 @@ static bool comes_first(const struct groebner *g, enum pair_strategy strategy, c
 static void add_pair(struct groebner *g, enum pair_strategy strategy, const struct pair *pair)
 {
     size_t from = 0, to = g->waiting;
+
     while (from < to) {
         const size_t middle = (from + to) / 2;
         if (comes_first(g, strategy, pair, &g->pairs[middle])) {
@@ -204,6 +211,7 @@ static void add_pairs(struct groebner *g, enum pair_strategy strategy, int eleme
 static bool is_coprime(const struct groebner *g, const struct pair *pair)
 {
     exponents a, b;
+
     leading(g, pair->i, a);
     leading(g, pair->j, b);
     return pair->degree == degree_of(g, a) + degree_of(g, b);
@@ -228,6 +236,7 @@ static enum pair_outcome divide_pair(struct groebner *g, const struct pair *pair
                                      struct groebner_step *step)
 {
     struct polynomial s;
+
     polynomial_init(&s, g->ring);
     polynomial_s(&s, &g->elements[pair->i], &g->elements[pair->j], g->ring);
     step->divisions = reduce(g, &s, -1);
@@ -246,6 +255,7 @@ static struct groebner_step take_pair(struct groebner *g, const struct groebner_
 {
     const struct pair pair = g->pairs[--g->waiting];
     struct groebner_step step = {pair.i, pair.j, .degree = pair.degree, .sugar = pair.sugar};
+
     g->waits[index_of(pair.i, pair.j)] = 0;
     step.outcome = params->coprime && is_coprime(g, &pair) ? PAIR_COPRIME
                    : params->chain && has_chain(g, &pair)  ? PAIR_CHAIN
@@ -264,6 +274,7 @@ void groebner_complete(struct groebner *g, const struct groebner_params *params,
                        void *data)
 {
     bool found = false;
+
     for (int i = 0; i < g->count; i++) {
         add_pairs(g, params->strategy, i);
         found |= params->until && groebner_is_free(g, i, params->until);
@@ -285,6 +296,7 @@ static void keep_minimal(struct groebner *g)
 {
     int count;
     const struct polynomial **list = list_divisors(g, -1, &count);
+
     for (int i = 0; i < count; i++) {
         polynomial_swap(&g->elements[i], &g->elements[list[i] - g->elements], g->ring);
     }
@@ -322,6 +334,7 @@ bool groebner_is_basis(const struct groebner *g)
 {
     struct polynomial s;
     bool basis = true;
+
     polynomial_init(&s, g->ring);
     for (int j = 0; j < g->count; j++) {
         for (int i = 0; basis && i < j; i++) {

@@ -52,6 +52,7 @@ static bool is_letter(const struct ideal *ideal, const char *name)
 static bool add_letters(struct ideal *out, const char *text, struct error *err)
 {
     size_t length, used = 0;
+
     out->names = memory_alloc(strlen(text) + 2, 1);
     for (const char *at = text; (at = next_name(at, &length)); at += length) {
         char *name = out->names + used;
@@ -86,6 +87,7 @@ static bool read_letters(struct ideal *out, const struct record *asked, struct e
 static bool read_weights(struct ideal *out, const char *text, struct error *err)
 {
     int count = 0;
+
     for (const char *at = text + strspn(text, " "); *at; count++) {
         char *end;
         const unsigned long weight = strtoul(at, &end, 10);
@@ -134,6 +136,7 @@ struct reading {
 static bool leaf(void *data, const struct equation_node *node, struct fraction *out)
 {
     const struct reading *r = data;
+
     if (node->op != EQUATION_LETTER) {
         return expression_refuse(node, r->err);
     }
@@ -147,6 +150,7 @@ static bool subtract_sides(const struct reading *r, const struct equation *equat
     const fmpz_mpoly_ctx_struct *ring = r->ideal->plain;
     const struct expression e = {equation, ring, leaf, (void *)r, r->err};
     struct fraction left, right;
+
     fraction_init(&left, ring), fraction_init(&right, ring);
     bool ok = expression_value(&e, equation->left, &left) &&
               expression_value(&e, equation->right, &right);
@@ -170,6 +174,7 @@ static bool read_polynomial(const struct ideal *ideal, const char *text, int lin
     struct equation_errors errors = {0};
     struct reading r = {ideal, err};
     struct equation *equation = equation_read_relation(text, ideal->letters, &errors);
+
     if (!equation) {
         const struct equation_error *first = &errors.list[0];
         return error_set_at(err, ERROR_INVALID, "", first->line, first->column, "%s",
@@ -203,6 +208,7 @@ static bool read_generators(struct ideal *out, const char *all, struct error *er
     char *text = memory_text(all);
     bool ok = true;
     int line = 1;
+
     for (char *at = text; ok && *at; line++) {
         const size_t length = strcspn(at, "\n");
         const bool last = at[length] == '\0';

@@ -22,6 +22,7 @@ struct values {
 static bool leaf(void *data, const struct equation_node *node, struct fraction *out)
 {
     const struct values *values = data;
+
     if (node->op == EQUATION_AXIS) {
         fmpz_mpoly_gen(out->over, node->which, values->space);
         return true;
@@ -41,6 +42,7 @@ static bool leaf(void *data, const struct equation_node *node, struct fraction *
 static bool check_digits(const char *text, struct error *err)
 {
     int digits = 0;
+
     for (const char *at = text; *at; at++) {
         if (isdigit((unsigned char)*at)) {
             digits += digits > 0 || *at != '0';
@@ -59,6 +61,7 @@ static struct equation *read_text(const char *text, struct error *err)
 {
     struct equation_errors errors = {0};
     struct equation *equation = equation_read(text, equation_letters, &errors);
+
     if (!equation) {
         const struct equation_error *first = &errors.list[0];
         error_set_at(err, ERROR_INVALID, "", first->line, first->column, "%s", first->message);
@@ -72,6 +75,7 @@ bool implicit_read(struct fraction *out, const struct record *params, const fmpz
     const char *text = record_text(params, "equation");
     struct fraction right;
     struct equation *equation = check_digits(text, err) ? read_text(text, err) : NULL;
+
     if (!equation) {
         return false;
     }

@@ -49,6 +49,7 @@ static bool find(const struct patch *patch, flint_rand_t random, struct result *
 static bool implicitize(const struct patch *patch, struct result *out, struct error *err)
 {
     flint_rand_t random;
+
     flint_randinit(random);
     bool ok =
         patch_find_degrees(patch, random, &out->degrees, err) && find(patch, random, out, err);
@@ -65,6 +66,7 @@ static bool implicitize(const struct patch *patch, struct result *out, struct er
 static cJSON *letters(const struct patch *patch)
 {
     cJSON *list = cJSON_CreateArray();
+
     for (int i = 0; i < SURFACE_LETTERS; i++) {
         if (patch->uses[i]) {
             cJSON_AddItemToArray(list, cJSON_CreateString(surface_names[SURFACE_PARTS + i]));
@@ -78,6 +80,7 @@ static cJSON *certificate(const struct result *result, const struct patch *patch
 {
     const double seconds = (double)clock() / CLOCKS_PER_SEC;
     cJSON *json = cJSON_CreateObject();
+
     cJSON_AddStringToObject(json, "method", result->method);
     cJSON_AddItemToObject(json, "parametric", cJSON_CreateStringArray(texts, 3));
     cJSON_AddItemToObject(json, "letters", letters(patch));
@@ -109,6 +112,7 @@ static void check_drawable(const char *text, cJSON *json)
     struct equation *equation = strlen(text) <= LIMIT_EQUATION_BYTES
                                     ? equation_read(text, equation_letters, &errors)
                                     : NULL;
+
     cJSON_AddBoolToObject(json, "drawable", equation != NULL);
     if (!equation) {
         cJSON_AddStringToObject(
@@ -123,6 +127,7 @@ static cJSON *answer(const struct result *result, const struct patch *patch,
     static const char *axes[] = {"x", "y", "z"};
     char *equation = fmpz_mpoly_get_str_pretty(result->equation, axes, result->space);
     cJSON *json = cJSON_CreateObject();
+
     cJSON_AddStringToObject(json, "equation", equation);
     cJSON_AddItemToObject(json, "certificate", certificate(result, patch, texts));
     check_drawable(equation, json);
@@ -134,6 +139,7 @@ static cJSON *answer_error(const struct error *err)
 {
     cJSON *json = cJSON_CreateObject();
     cJSON *members = cJSON_AddObjectToObject(json, "error");
+
     cJSON_AddNumberToObject(members, "kind", err->kind);
     cJSON_AddStringToObject(members, "place", err->place);
     cJSON_AddNumberToObject(members, "line", err->line);
@@ -147,6 +153,7 @@ static cJSON *find_equation(const char *method, const char *const texts[3])
     struct error err = {0};
     struct patch patch;
     struct result result = {.method = method};
+
     if (!patch_read(&patch, texts, &err)) {
         return answer_error(&err);
     }
@@ -167,6 +174,7 @@ static cJSON *answer_verdict(const struct verdict *verdict)
     char *reason = NULL;
     size_t length;
     FILE *out = open_memstream(&reason, &length);
+
     error_print(&verdict->reason, out);
     fclose(out);
     reason[strcspn(reason, "\n")] = '\0';
@@ -183,6 +191,7 @@ static cJSON *verify_params(const char *text)
     struct record params;
     struct verdict verdict;
     cJSON *json = json_parse(text, strlen(text), &err), *answer;
+
     record_init(&params, &node_type_find("implicit")->record);
     if (json && record_read(&params, json, "", &err)) {
         verify(&params, &verdict);
@@ -202,6 +211,7 @@ static cJSON *find_basis(const char *text)
     struct error err = {0};
     struct record asked;
     cJSON *json = json_parse(text, strlen(text), &err), *answer = NULL;
+
     record_init(&asked, &ideal_type);
     if (json && record_read(&asked, json, "", &err)) {
         answer = workbench_basis(&asked, stdout, &err);
@@ -214,6 +224,7 @@ static cJSON *find_basis(const char *text)
 int main(int argc, char **argv)
 {
     cJSON *json;
+
     if (argc == 6 && strcmp(argv[1], "implicitize") == 0) {
         json = find_equation(argv[2], (const char *const[]){argv[3], argv[4], argv[5]});
     } else if (argc == 3 && strcmp(argv[1], "verify") == 0) {

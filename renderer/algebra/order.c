@@ -4,6 +4,7 @@
 static void add_sum(struct order *out, int from, int to)
 {
     unsigned long *row = out->matrix[out->rows++];
+
     for (int i = from; i < to; i++) {
         row[i] = 1;
     }
@@ -28,6 +29,7 @@ static void add_block(struct order *out, enum order_kind kind, int from, int to)
 void order_make(struct order *out, const struct order_params *params)
 {
     bool weighted = false;
+
     *out = (struct order){.letters = params->letters};
     for (int i = 0; i < params->letters; i++) {
         out->matrix[0][i] = params->weights[i];
@@ -43,6 +45,7 @@ void order_make(struct order *out, const struct order_params *params)
 unsigned long order_image(const struct order *order, int row, const unsigned long *exponents)
 {
     unsigned long sum = 0;
+
     for (int i = 0; i < order->letters; i++) {
         sum += order->matrix[row][i] * exponents[i];
     }

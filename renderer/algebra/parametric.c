@@ -53,6 +53,7 @@ static enum letter_kind family(const struct equation_node *call)
 static bool use(struct reading *r, int letter, enum letter_kind kind)
 {
     const enum letter_kind before = r->kinds[letter];
+
     if (before != UNUSED && before != kind) {
         const enum letter_kind within = before > kind ? before : kind;
         return before != PLAIN && kind != PLAIN
@@ -73,6 +74,7 @@ static bool survey_call(struct reading *r, const struct equation_node *node)
     const char *name = equation_functions[node->which].name;
     struct affine argument;
     bool ok = true;
+
     if (kind == UNUSED) {
         return expression_refuse(node, r->err);
     }
@@ -95,6 +97,7 @@ static bool survey_call(struct reading *r, const struct equation_node *node)
 static bool survey(struct reading *r, uint16_t index)
 {
     const struct equation_node *node = &r->equation->nodes[index];
+
     if (r->seen[index]) {
         return true;
     }
@@ -123,6 +126,7 @@ static bool survey(struct reading *r, uint16_t index)
 static bool whole_multiple(const struct reading *r, const struct affine *argument, int i, long *out)
 {
     fmpq_t ratio;
+
     *out = 0;
     if (fmpq_is_zero(argument->of[i])) {
         return true;
@@ -143,6 +147,7 @@ static void turn(struct fraction *re, struct fraction *im, struct fraction *angl
                  const fmpz_mpoly_ctx_t ring)
 {
     fmpz_mpoly_t a, b, c;
+
     fmpz_mpoly_init(a, ring);
     fmpz_mpoly_init(b, ring);
     fmpz_mpoly_init(c, ring);
@@ -167,6 +172,7 @@ static void half_tangent(struct fraction *angle, fmpz_mpoly_t size, slong variab
                          const fmpz_mpoly_ctx_t ring)
 {
     fmpz_mpoly_t square;
+
     fmpz_mpoly_init(square, ring);
     fmpz_mpoly_gen(angle->under, variable, ring);
     fmpz_mpoly_mul(square, angle->under, angle->under, ring);
@@ -181,6 +187,7 @@ static void half_tangent(struct fraction *angle, fmpz_mpoly_t size, slong variab
 static bool quarter_turns(const struct reading *r, const struct affine *argument, int *out)
 {
     fmpq_t quarters;
+
     fmpq_init(quarters);
     fmpq_mul_si(quarters, argument->of[AFFINE_PI], 2);
     const bool ok = fmpq_is_zero(argument->of[AFFINE_ONE]) && fmpz_is_one(fmpq_denref(quarters));
@@ -197,6 +204,7 @@ static bool angle_value(struct reading *r, struct fraction *out, const struct eq
     struct fraction re, im, angle;
     fmpz_mpoly_t size, sizes;
     int quarters = 0;
+
     fraction_init(&re, ring), fraction_init(&im, ring), fraction_init(&angle, ring);
     fmpz_mpoly_init(size, ring), fmpz_mpoly_init(sizes, ring);
     fmpz_mpoly_one(re.over, ring), fmpz_mpoly_one(sizes, ring);
@@ -230,6 +238,7 @@ static bool exponential(struct reading *r, struct fraction *out, const struct af
     const fmpz_mpoly_ctx_struct *ring = r->patch->ring;
     struct fraction letter, power;
     bool ok = true;
+
     if (!fmpq_is_zero(argument->of[AFFINE_ONE]) || !fmpq_is_zero(argument->of[AFFINE_PI])) {
         return refuse(r, "exp of a number is not rational; take it out of the exponent");
     }
@@ -258,6 +267,7 @@ static bool growth_value(struct reading *r, struct fraction *out, const struct e
     struct fraction e, squares;
     fmpz_mpoly_t both, sum, difference;
     bool ok = exponential(r, out, argument);
+
     if (!ok || node->which == EQUATION_EXP) {
         return ok;
     }
@@ -282,6 +292,7 @@ static bool growth_value(struct reading *r, struct fraction *out, const struct e
 static bool call_value(struct reading *r, struct fraction *out, const struct equation_node *node)
 {
     struct affine argument;
+
     affine_init(&argument);
     affine_read(&argument, r->equation, node->args[0]);
     const bool ok = family(node) == ANGLE ? angle_value(r, out, node, &argument)
@@ -293,6 +304,7 @@ static bool call_value(struct reading *r, struct fraction *out, const struct equ
 static bool leaf(void *data, const struct equation_node *node, struct fraction *out)
 {
     struct reading *r = data;
+
     if (node->op == EQUATION_LETTER) {
         fmpz_mpoly_gen(out->over, r->variables[node->which], r->patch->ring);
         return true;
@@ -303,6 +315,7 @@ static bool leaf(void *data, const struct equation_node *node, struct fraction *
 static bool find_value(struct reading *r, struct fraction *out)
 {
     const struct expression e = {r->equation, r->patch->ring, leaf, r, r->err};
+
     return expression_value(&e, r->equation->left, out);
 }
 
@@ -315,6 +328,7 @@ static struct equation *read_text(const char *text, const char *place, struct er
                                     ? equation_read_expression(text, letters, &errors)
                                     : NULL;
     const struct equation_error *first = &errors.list[0];
+
     if (!equation && errors.count == 0) {
         error_set(err, ERROR_LIMIT, place, "%zu bytes; the limit is %d (equation_bytes)",
                   strlen(text), LIMIT_EQUATION_BYTES);
@@ -334,6 +348,7 @@ static void name_place(struct error *err, const char *place)
 static bool number_letters(struct reading *r)
 {
     int count = 0;
+
     for (int i = 0; i < SURFACE_LETTERS; i++) {
         r->variables[i] = count;
         r->patch->uses[i] = r->kinds[i] != UNUSED;
@@ -346,6 +361,7 @@ static bool find_fractions(struct reading *r, struct equation *const equations[3
                            struct fraction out[3])
 {
     bool ok = true;
+
     for (int i = 0; ok && i < 3; i++) {
         r->equation = equations[i];
         memset(r->seen, 0, sizeof r->seen);
@@ -370,6 +386,7 @@ static bool join(struct patch *patch, struct fraction in[3], struct error *err)
 {
     struct fraction multiple;
     bool ok = true;
+
     fraction_init(&multiple, patch->ring);
     for (int i = 0; ok && i < 3; i++) {
         /* W / under in lowest terms is k / j; then lcm(W, under) is W j. */
@@ -409,6 +426,7 @@ void patch_clear(struct patch *patch)
 slong patch_degree(const struct patch *patch)
 {
     slong degree = 0;
+
     for (int i = 0; i < PATCH_PARTS; i++) {
         const slong part = fmpz_mpoly_total_degree_si(patch->part[i], patch->ring);
         degree = part > degree ? part : degree;
@@ -421,6 +439,7 @@ static bool read_equations(struct patch *out, struct equation *const equations[3
 {
     struct reading *r = calloc(1, sizeof *r);
     struct fraction fractions[3];
+
     if (!r) {
         return error_set(err, ERROR_INTERNAL, "", "out of memory");
     }
@@ -451,6 +470,7 @@ bool patch_read(struct patch *out, const char *const texts[3], struct error *err
 {
     struct equation *equations[3] = {NULL};
     bool ok = true;
+
     for (int i = 0; ok && i < 3; i++) {
         equations[i] = read_text(texts[i], surface_names[i], err);
         ok = equations[i] != NULL;

@@ -58,6 +58,7 @@ void polynomial_set(struct polynomial *out, const fmpz_mpoly_t f, const fmpz_mpo
     exponents letters;
     ulong fields[FIELDS];
     fmpz_t coefficient;
+
     fmpz_init(coefficient);
     fmpz_mpoly_zero(out->whole, ring->whole);
     nmod_mpoly_zero(out->residues, ring->residues);
@@ -83,6 +84,7 @@ void polynomial_get(fmpz_mpoly_t out, const fmpz_mpoly_ctx_t plain, const struct
 {
     exponents letters;
     fmpz_t coefficient;
+
     fmpz_init(coefficient);
     fmpz_mpoly_zero(out, plain);
     for (slong n = 0; n < polynomial_terms(f, ring); n++) {
@@ -104,6 +106,7 @@ void polynomial_exponents(const struct polynomial *f, slong n, const struct ring
                           exponents out)
 {
     ulong fields[FIELDS];
+
     if (ring->prime) {
         nmod_mpoly_get_term_exp_ui(fields, f->residues, n, ring->residues);
     } else {
@@ -117,6 +120,7 @@ void polynomial_exponents(const struct polynomial *f, slong n, const struct ring
 ulong polynomial_degree(const struct polynomial *f, const struct ring *ring)
 {
     ulong most = 0;
+
     for (slong n = 0; n < polynomial_terms(f, ring); n++) {
         exponents letters;
         ulong sum = 0;
@@ -134,6 +138,7 @@ ulong polynomial_degree(const struct polynomial *f, const struct ring *ring)
 void make_primitive(fmpz_mpoly_t f)
 {
     fmpz_t divisor;
+
     fmpz_init(divisor);
     _fmpz_vec_content(divisor, f->coeffs, f->length);
     if (f->length > 0 && fmpz_sgn(f->coeffs) < 0) {
@@ -194,6 +199,7 @@ void polynomial_s(struct polynomial *out, const struct polynomial *f, const stru
     exponents a, b, up = {0}, down = {0};
     ulong fields[FIELDS];
     struct polynomial other;
+
     polynomial_init(&other, ring);
     polynomial_exponents(f, 0, ring, a);
     polynomial_exponents(g, 0, ring, b);
@@ -240,6 +246,7 @@ void polynomial_divide(struct division *out, const struct polynomial *f,
     const size_t count = (size_t)out->count;
     nmod_mpoly_struct **residues = memory_alloc(2 * count + 1, sizeof *residues);
     fmpz_mpoly_struct **whole = memory_alloc(2 * count + 1, sizeof *whole);
+
     for (size_t i = 0; i < count; i++) {
         residues[i] = out->quotients[i].residues;
         whole[i] = out->quotients[i].whole;
@@ -261,6 +268,7 @@ void polynomial_divide(struct division *out, const struct polynomial *f,
 slong division_steps(const struct division *d, const struct ring *ring)
 {
     slong sum = 0;
+
     for (int i = 0; i < d->count; i++) {
         sum += polynomial_terms(&d->quotients[i], ring);
     }
@@ -272,6 +280,7 @@ slong division_steps(const struct division *d, const struct ring *ring)
 void monomial_print(const exponents a, const char *const *letters, int count, FILE *out)
 {
     const char *between = "";
+
     for (int i = 0; i < count; i++) {
         if (a[i] > 0) {
             fprintf(out, a[i] > 1 ? "%s%s^%lu" : "%s%s", between, letters[i], a[i]);
@@ -289,6 +298,7 @@ static void print_term(const struct polynomial *f, slong n, const char *const *l
     exponents a;
     fmpz_t coefficient;
     bool constant = true;
+
     fmpz_init(coefficient);
     polynomial_exponents(f, n, ring, a);
     for (int i = 0; i < ring->order.letters; i++) {
@@ -317,6 +327,7 @@ void polynomial_print(const struct polynomial *f, const char *const *letters,
                       const struct ring *ring, FILE *out)
 {
     const slong terms = polynomial_terms(f, ring);
+
     for (slong n = 0; n < terms; n++) {
         print_term(f, n, letters, ring, out);
     }

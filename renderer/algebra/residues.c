@@ -8,6 +8,7 @@ static mp_limb_t *dense(const fmpz_mpoly_t f, const fmpz_mpoly_ctx_t ring, slong
 {
     mp_limb_t *table = flint_calloc((size_t)((degree + 1) * (degree + 1)), sizeof *table);
     fmpz_t coefficient;
+
     fmpz_init(coefficient);
     for (slong i = 0; i < fmpz_mpoly_length(f, ring); i++) {
         ulong powers[2];
@@ -41,6 +42,7 @@ mp_limb_t residues_at(const struct residues *r, int part, mp_limb_t s, mp_limb_t
 {
     const slong side = r->degree + 1;
     mp_limb_t value = 0;
+
     for (slong i = r->degree; i >= 0; i--) {
         mp_limb_t row = 0;
         for (slong j = r->degree - i; j >= 0; j--) {
@@ -54,6 +56,7 @@ mp_limb_t residues_at(const struct residues *r, int part, mp_limb_t s, mp_limb_t
 void residues_in_t(const struct residues *r, const mp_limb_t *part, mp_limb_t s, nmod_poly_t out)
 {
     const slong side = r->degree + 1;
+
     nmod_poly_zero(out);
     for (slong j = 0; j <= r->degree; j++) {
         mp_limb_t value = 0;

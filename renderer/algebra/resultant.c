@@ -16,6 +16,7 @@ struct point {
 static void set_point(struct point *p, const struct patch *patch, flint_rand_t random)
 {
     fmpz *parameters[] = {p->at[S], p->at[T]};
+
     do {
         fmpz_randbits(p->at[S], random, 30);
         fmpz_randbits(p->at[T], random, 30);
@@ -31,6 +32,7 @@ static bool is_zero_at(const fmpz_mpoly_t f, const struct point *p, const fmpz_m
 {
     fmpz_t sum, term, power;
     ulong most = 0, a[LETTERS];
+
     fmpz_init(sum), fmpz_init(term), fmpz_init(power);
     for (slong n = 0; n < fmpz_mpoly_length(f, ring); n++) {
         fmpz_mpoly_get_term_exp_ui(a, f, n, ring);
@@ -61,6 +63,7 @@ struct resultants {
 static void resultants_init(struct resultants *r, const struct patch *patch)
 {
     flint_rand_t random;
+
     flint_randinit(random);
     r->patch = patch;
     fmpz_mpoly_ctx_init(r->ring, LETTERS, ORD_LEX);
@@ -94,12 +97,14 @@ static void resultants_clear(struct resultants *r)
 static void lift(const struct resultants *r, int part, fmpz_mpoly_t out)
 {
     const slong places[] = {S, T};
+
     fmpz_mpoly_compose_fmpz_mpoly_gen(out, r->patch->part[part], places, r->patch->ring, r->ring);
 }
 
 static void make_sides(struct resultants *r)
 {
     fmpz_mpoly_t under, over;
+
     fmpz_mpoly_init(under, r->ring);
     fmpz_mpoly_init(over, r->ring);
     lift(r, PATCH_W, under);
@@ -128,6 +133,7 @@ static bool keep_factor(const struct resultants *r, fmpz_mpoly_t f)
 {
     fmpz_mpoly_factor_t factors;
     bool found = false;
+
     fmpz_mpoly_factor_init(factors, r->ring);
     if (!fmpz_mpoly_is_zero(f, r->ring) && fmpz_mpoly_factor(factors, f, r->ring)) {
         for (slong i = 0; !found && i < fmpz_mpoly_factor_length(factors, r->ring); i++) {
@@ -147,6 +153,7 @@ static bool eliminate(const struct resultants *r, fmpz_mpoly_t out, const fmpz_m
 {
     const bool free[] = {fmpz_mpoly_degree_si(f, letter, r->ring) == 0,
                          fmpz_mpoly_degree_si(g, letter, r->ring) == 0};
+
     if (free[0] || free[1]) {
         fmpz_mpoly_set(out, free[0] ? f : g, r->ring);
         return true;
@@ -159,6 +166,7 @@ static bool eliminate_s(const struct resultants *r, fmpz_mpoly_t first, fmpz_mpo
 {
     static const int pairs[][2] = {{0, 1}, {0, 2}, {1, 2}};
     bool found = false;
+
     for (int i = 0; i < 3; i++) {
         if (!eliminate(r, second, r->sides[pairs[i][0]], r->sides[pairs[i][1]], S)) {
             continue;
@@ -175,6 +183,7 @@ static bool eliminate_s(const struct resultants *r, fmpz_mpoly_t first, fmpz_mpo
 static bool find(const struct resultants *r, fmpz_mpoly_t out)
 {
     fmpz_mpoly_t first, second;
+
     fmpz_mpoly_init(first, r->ring);
     fmpz_mpoly_init(second, r->ring);
     const bool found = eliminate_s(r, first, second) && eliminate(r, out, first, second, T) &&
@@ -191,6 +200,7 @@ bool eliminate_resultant(const struct patch *patch, fmpz_mpoly_t out, const fmpz
     static const slong places[] = {-1, -1, 0, 1, 2};
     struct resultants r;
     fmpz_mpoly_t equation;
+
     resultants_init(&r, patch);
     make_sides(&r);
     fmpz_mpoly_init(equation, r.ring);

@@ -35,6 +35,7 @@ static void value_at(const fmpz_mpoly_t f, fmpq_t point[3], fmpq_t out,
 {
     fmpq_t term, power;
     fmpz_t coefficient;
+
     fmpq_init(term), fmpq_init(power);
     fmpz_init(coefficient);
     fmpq_zero(out);
@@ -58,6 +59,7 @@ static bool point_at(const struct patch *patch, slong i, slong j, fmpq_t point[3
 {
     fmpz s = i, t = j, *at[2] = {&s, &t};
     fmpz_t over, under;
+
     fmpz_init(over), fmpz_init(under);
     fmpz_mpoly_evaluate_all_fmpz(under, patch->part[PATCH_W], at, patch->ring);
     const bool ok = !fmpz_is_zero(under);
@@ -73,6 +75,7 @@ static bool point_at(const struct patch *patch, slong i, slong j, fmpq_t point[3
 static bool tell_point(struct proof *p, slong i, slong j)
 {
     fmpq_t point[3], over, under;
+
     for (int k = 0; k < 3; k++) {
         fmpq_init(point[k]);
     }
@@ -126,6 +129,7 @@ static bool check_letters(struct proof *p, const struct surface *surface)
 static bool check_surface(struct proof *p)
 {
     flint_rand_t random;
+
     flint_randinit(random);
     struct error err = {0};
     const bool ok = patch_is_surface(&p->patch, random, &err);
@@ -136,6 +140,7 @@ static bool check_surface(struct proof *p)
 static bool check_equation(struct proof *p)
 {
     const slong degree = fmpz_mpoly_total_degree_si(p->equation.over, p->space);
+
     if (degree < 0) {
         return misfit(p, "the equation holds everywhere");
     }
@@ -157,6 +162,7 @@ static bool check_factors(struct proof *p)
 static bool prove(struct proof *p, const struct surface *surface, const struct record *params)
 {
     struct error *reason = &p->out->reason;
+
     if (!check_letters(p, surface) || !check_surface(p)) {
         return false;
     }
@@ -175,6 +181,7 @@ static void verify_surface(const struct record *params, const struct surface *su
                            struct verdict *out)
 {
     struct proof p = {.out = out};
+
     if (!patch_read(&p.patch, surface->parts, &out->reason)) {
         return;
     }
@@ -196,6 +203,7 @@ void verify(const struct record *params, struct verdict *out)
     const char *text = record_text(params, "parametric");
     struct surface surface;
     cJSON *json = json_parse(text, strlen(text), NULL);
+
     *out = (struct verdict){.verdict = SURFACE_NOT_CHECKED};
     surface_read(&surface, json, "", NULL);
     if (surface.parts[0]) {

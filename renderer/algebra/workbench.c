@@ -23,6 +23,7 @@ static cJSON *print(const struct polynomial *f, const struct names *names)
     char *text = NULL;
     size_t length;
     FILE *out = open_memstream(&text, &length);
+
     polynomial_print(f, names->letters, names->ring, out);
     fclose(out);
     if (length > TEXT_BYTES) {
@@ -42,6 +43,7 @@ static cJSON *print_leading(const struct polynomial *f, const struct names *name
     char text[256];
     exponents a;
     FILE *out = fmemopen(text, sizeof text, "w");
+
     polynomial_exponents(f, 0, names->ring, a);
     monomial_print(a, names->letters, names->ring->order.letters, out);
     fclose(out);
@@ -52,6 +54,7 @@ static cJSON *print_leading(const struct polynomial *f, const struct names *name
 static cJSON *describe(const struct polynomial *f, const struct names *names)
 {
     cJSON *json = cJSON_CreateObject();
+
     cJSON_AddItemToObject(json, "text", print(f, names));
     cJSON_AddItemToObject(json, "leading", print_leading(f, names));
     cJSON_AddNumberToObject(json, "terms", (double)polynomial_terms(f, names->ring));
@@ -62,6 +65,7 @@ static cJSON *describe(const struct polynomial *f, const struct names *names)
 cJSON *workbench_counts(const struct groebner_counts *counts)
 {
     cJSON *json = cJSON_CreateObject();
+
     cJSON_AddNumberToObject(json, "made", (double)counts->pairs);
     for (int i = 0; i < PAIR_OUTCOMES; i++) {
         cJSON_AddNumberToObject(json, outcome_names[i], (double)counts->of[i]);
@@ -83,6 +87,7 @@ static void tell(void *data, const struct groebner *g, const struct groebner_ste
 {
     struct telling *telling = data;
     const bool added = step->outcome == PAIR_ADDED;
+
     if (telling->steps++ >= STEPS_TOLD && telling->steps % STEPS_APART) {
         return;
     }
@@ -111,6 +116,7 @@ static void tell(void *data, const struct groebner *g, const struct groebner_ste
 static cJSON *list_elements(const struct groebner *g, int without, const struct names *names)
 {
     cJSON *list = cJSON_CreateArray();
+
     for (int i = 0; i < g->count; i++) {
         if (groebner_is_free(g, i, without)) {
             cJSON_AddItemToArray(list, describe(&g->elements[i], names));
@@ -125,6 +131,7 @@ static void add_division(cJSON *json, const struct ideal *ideal, const struct gr
     struct polynomial f;
     struct division division;
     const struct polynomial **divisors = memory_alloc((size_t)g->count + 1, sizeof(void *));
+
     for (int i = 0; i < g->count; i++) {
         divisors[i] = &g->elements[i];
     }
@@ -148,6 +155,7 @@ static void add_division(cJSON *json, const struct ideal *ideal, const struct gr
 static cJSON *answer(const struct ideal *ideal, const struct groebner *g, const struct names *names)
 {
     cJSON *json = cJSON_CreateObject();
+
     cJSON_AddItemToObject(json, "letters",
                           cJSON_CreateStringArray(ideal->letters, ideal->order.letters));
     cJSON_AddItemToObject(json, "basis", list_elements(g, 0, names));
@@ -165,6 +173,7 @@ static cJSON *answer(const struct ideal *ideal, const struct groebner *g, const 
 static void add_generators(const struct ideal *ideal, struct groebner *g)
 {
     struct polynomial f;
+
     polynomial_init(&f, g->ring);
     for (int i = 0; i < ideal->count; i++) {
         polynomial_set(&f, ideal->generators[i], ideal->plain, g->ring);
@@ -176,6 +185,7 @@ static void add_generators(const struct ideal *ideal, struct groebner *g)
 static struct groebner_params read_params(const struct record *asked)
 {
     const enum criteria criteria = (enum criteria)record_number(asked, "criteria");
+
     return (struct groebner_params){
         .strategy = (enum pair_strategy)record_number(asked, "strategy"),
         .coprime = criteria == CRITERIA_BOTH || criteria == CRITERIA_COPRIME,
@@ -187,6 +197,7 @@ cJSON *workbench_basis(const struct record *asked, FILE *steps, struct error *er
     struct ideal ideal;
     struct ring ring;
     struct groebner g;
+
     if (!ideal_read(&ideal, asked, err)) {
         return NULL;
     }

@@ -210,6 +210,7 @@ static double is_false(double x)
 static double sum_of_products(const double *a, const double *b, int n)
 {
     double sum = 0;
+
     for (int i = 0; i < n; i++) {
         sum += a[i] * b[i];
     }
@@ -229,6 +230,7 @@ static void length_of(double *out, const double *const in[BUILTIN_ARGUMENTS], in
 static void distance_of(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
 {
     double sum = 0;
+
     for (int i = 0; i < n; i++) {
         double d = in[0][i] - in[1][i];
         sum += d * d;
@@ -239,6 +241,7 @@ static void distance_of(double *out, const double *const in[BUILTIN_ARGUMENTS], 
 static void cross_product(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
 {
     const double *a = in[0], *b = in[1];
+
     for (int i = 0; i < n; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         out[i] = a[j] * b[k] - a[k] * b[j];
@@ -248,6 +251,7 @@ static void cross_product(double *out, const double *const in[BUILTIN_ARGUMENTS]
 static void normalized(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
 {
     double scale = inverse_root(sum_of_products(in[0], in[0], n));
+
     for (int i = 0; i < n; i++) {
         out[i] = in[0][i] * scale;
     }
@@ -256,6 +260,7 @@ static void normalized(double *out, const double *const in[BUILTIN_ARGUMENTS], i
 static void face_forward(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
 {
     double sign = sum_of_products(in[2], in[1], n) < 0 ? 1 : -1;
+
     for (int i = 0; i < n; i++) {
         out[i] = sign * in[0][i];
     }
@@ -264,6 +269,7 @@ static void face_forward(double *out, const double *const in[BUILTIN_ARGUMENTS],
 static void reflected(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
 {
     double twice = 2 * sum_of_products(in[1], in[0], n);
+
     for (int i = 0; i < n; i++) {
         out[i] = in[0][i] - twice * in[1][i];
     }
@@ -274,6 +280,7 @@ static void refracted(double *out, const double *const in[BUILTIN_ARGUMENTS], in
 {
     double eta = in[2][0], along = sum_of_products(in[1], in[0], n);
     double k = 1 - eta * eta * (1 - along * along);
+
     for (int i = 0; i < n; i++) {
         out[i] = k < 0 ? 0 : eta * in[0][i] - (eta * along + sqrt(k)) * in[1][i];
     }
@@ -314,6 +321,7 @@ static double cofactor(const double *m, int n, int row, int column)
 {
     double rest[9];
     int count = 0;
+
     for (int i = 0; i < n * n; i++) {
         if (i % n != row && i / n != column) {
             rest[count++] = m[i];
@@ -343,6 +351,7 @@ static void determinant_of(double *out, const double *const in[BUILTIN_ARGUMENTS
 static void inverted(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
 {
     double scale;
+
     determinant_of(&scale, in, n);
     for (int i = 0; i < n * n; i++) {
         out[i] = scale == 0 ? 0 : cofactor(in[0], n, i / n, i % n) / scale;

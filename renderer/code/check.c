@@ -24,6 +24,7 @@ bool check_declare(struct checker *checker, struct variable *variable)
 {
     struct name *name = variable->name;
     struct variable *old = name->variable;
+
     if (old && old->scope == checker->scope) {
         return old->storage == STORAGE_DECLARED
                    ? CHECK_FAIL(checker, variable->at,
@@ -46,6 +47,7 @@ static bool check_type(struct checker *checker, struct variable *variable)
 {
     char name[TYPE_NAME_BYTES];
     bool parameter = variable->storage == STORAGE_PARAMETER;
+
     if (variable->type.base == BASE_VOID || (type_is_handle(variable->type) && !parameter)) {
         return CHECK_FAIL(checker, variable->at, "%s cannot be the type of a %s",
                           type_name(variable->type, name), parameter ? "parameter" : "variable");
@@ -63,6 +65,7 @@ static bool check_initial(struct checker *checker, struct stmt *stmt)
     struct variable *variable = stmt->variable;
     struct type element = variable->type;
     char what[60];
+
     if (stmt->expr->list) {
         if (!check_list(checker, stmt->expr, &element, variable->unsized)) {
             return false;
@@ -84,6 +87,7 @@ static bool check_initial(struct checker *checker, struct stmt *stmt)
 static bool check_local(struct checker *checker, struct stmt *stmt)
 {
     struct variable *variable = stmt->variable;
+
     if (!check_type(checker, variable) || (stmt->expr && !check_initial(checker, stmt))) {
         return false;
     }
@@ -101,6 +105,7 @@ static bool check_again(struct checker *checker, const struct variable *variable
 {
     const struct variable *declared = variable->name->variable;
     char own[TYPE_NAME_BYTES], given[TYPE_NAME_BYTES];
+
     if (!declared || declared->storage != STORAGE_DECLARED) {
         return CHECK_FAIL(checker, variable->at,
                           "%.40s has no value: it is neither a constant nor a declared parameter",
@@ -117,6 +122,7 @@ static bool check_again(struct checker *checker, const struct variable *variable
 static bool check_global(struct checker *checker, struct stmt *stmt)
 {
     struct variable *variable = stmt->variable;
+
     variable->storage = STORAGE_GLOBAL;
     if (!check_type(checker, variable)) {
         return false;
@@ -144,6 +150,7 @@ static bool check_return(struct checker *checker, struct stmt *stmt)
     const struct function *function = checker->function;
     char name[TYPE_NAME_BYTES];
     bool nothing = function->result.base == BASE_VOID;
+
     if (!stmt->expr) {
         return nothing || CHECK_FAIL(checker, stmt->at, "%.40s returns %s, not nothing",
                                      function->name->text, type_name(function->result, name));
@@ -159,6 +166,7 @@ static bool check_return(struct checker *checker, struct stmt *stmt)
 static bool check_if(struct checker *checker, struct stmt *stmt)
 {
     char name[TYPE_NAME_BYTES];
+
     if (!check_value(checker, stmt->expr)) {
         return false;
     }
@@ -188,6 +196,7 @@ static bool check_statements(struct checker *checker, struct stmt *list)
 bool check_statement(struct checker *checker, struct stmt *stmt)
 {
     bool ok = true;
+
     switch (stmt->kind) {
     case STMT_BLOCK:
         check_open(checker);
@@ -235,6 +244,7 @@ static bool returns(const struct stmt *stmt)
 static bool same_parameters(const struct function *a, const struct function *b)
 {
     const struct variable *p = a->parameters, *q = b->parameters;
+
     for (; p && q; p = p->next, q = q->next) {
         if (!type_equal(p->type, q->type)) {
             return false;
@@ -272,6 +282,7 @@ static struct function *find_or_add(struct checker *checker, struct function *fu
 {
     struct name *name = function->name;
     struct tree *tree = checker->tree;
+
     for (struct function *f = name->functions; f; f = f->overload) {
         if (same_parameters(f, function)) {
             return f;
@@ -311,6 +322,7 @@ static bool merge(struct checker *checker, struct function *old, struct function
 static bool check_body(struct checker *checker, struct function *function)
 {
     bool ok = true;
+
     checker->function = function;
     check_open(checker);
     for (struct variable *p = function->parameters; p && ok; p = p->next) {
@@ -330,6 +342,7 @@ static bool check_body(struct checker *checker, struct function *function)
 static bool check_function(struct checker *checker, struct stmt *stmt)
 {
     struct function *function = stmt->function;
+
     if (!check_parameters(checker, function)) {
         return false;
     }
@@ -366,6 +379,7 @@ static bool declare_parameters(struct checker *checker, const struct param *para
         [PARAM_IVEC2] = {BASE_INT, 2, 1, 0},   [PARAM_IVEC3] = {BASE_INT, 3, 1, 0},
         [PARAM_IVEC4] = {BASE_INT, 4, 1, 0},   [PARAM_COLOR] = {BASE_FLOAT, 3, 1, 0},
     };
+
     enum { DATA_MIN = 8 };
     struct tree *tree = checker->tree;
     for (; params && params->name; params++) {
@@ -388,6 +402,7 @@ static bool declare_parameters(struct checker *checker, const struct param *para
 static bool is_entry(const struct function *f, enum code_use use)
 {
     const struct variable *p = f->parameters, *q = p ? p->next : NULL;
+
     for (const struct variable *v = p; v; v = v->next) {
         if (v->direction != DIRECTION_IN) {
             return false;
@@ -406,6 +421,7 @@ static bool is_entry(const struct function *f, enum code_use use)
 static const struct function *find_meant(const struct tree *tree, enum code_use use)
 {
     const char *name = use == CODE_SHADE ? "shade" : "sdf";
+
     for (const struct function *f = tree->functions; f; f = f->next) {
         if (strcmp(f->name->text, name) == 0) {
             return f;
@@ -421,6 +437,7 @@ static bool find_entry(struct checker *checker, enum code_use use)
     const char *form =
         use == CODE_SHADE ? "vec3 shade(FragmentProperties properties)" : "float sdf(vec3 p)";
     const struct function *meant = find_meant(tree, use);
+
     for (struct function *f = tree->functions; f; f = f->next) {
         bool sdf = strcmp(f->name->text, "sdf") == 0;
         if (is_entry(f, use) && f->body && (!named || sdf)) {
@@ -440,6 +457,7 @@ bool check_tree(struct tree *tree, const struct code_source *source)
     struct checker checker = {.tree = tree};
     bool ok = declare_parameters(&checker, source->params) && check_top(&checker) &&
               check_bounds(tree) && find_entry(&checker, source->use);
+
     if (ok) {
         check_reach(tree->entry);
     }

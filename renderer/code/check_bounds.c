@@ -62,6 +62,7 @@ static bool refuse_cycle(struct bounds_walk *walk, const struct function *again,
     const struct function *cycle[LIMIT_CODE_DEPTH + 1];
     char path[200];
     int count = 0, used = 0;
+
     for (const struct function *f = walk->function; f != again; f = f->caller) {
         cycle[count++] = f;
     }
@@ -78,6 +79,7 @@ static bool walk_call(struct bounds_walk *walk, struct cost *cost, const struct 
 {
     struct function *to = expr->function;
     long arguments = type_components(to->result);
+
     if (!walk_function(walk, to, expr->at)) {
         return false;
     }
@@ -179,6 +181,7 @@ static bool walk_list(struct bounds_walk *walk, struct cost *cost, const struct 
 static bool walk_for(struct bounds_walk *walk, struct cost *cost, const struct stmt *stmt)
 {
     struct cost body = {.size = cost->size, .bytes = cost->bytes};
+
     if (!walk_statement(walk, &body, stmt->body)) {
         return false;
     }
@@ -219,6 +222,7 @@ static bool is_last(const struct function *function, const struct stmt *stmt)
 static bool walk_statement(struct bounds_walk *walk, struct cost *cost, const struct stmt *stmt)
 {
     const struct variable *variable = stmt->variable;
+
     if (!is_last(walk->function, stmt) &&
         !spend_size(walk, cost, check_load_of_statement(stmt), stmt->at)) {
         return false;
@@ -267,6 +271,7 @@ static bool open_function(struct bounds_walk *walk, struct function *function, s
 static bool walk_function(struct bounds_walk *walk, struct function *function, struct at call)
 {
     struct cost cost = {0};
+
     if (function->state == FUNCTION_DONE) {
         return true;
     }
@@ -296,6 +301,7 @@ static bool walk_function(struct bounds_walk *walk, struct function *function, s
 bool check_bounds(struct tree *tree)
 {
     struct bounds_walk walk = {.tree = tree};
+
     for (struct function *f = tree->functions; f; f = f->next) {
         if (f->body && !walk_function(&walk, f, f->at)) {
             return false;

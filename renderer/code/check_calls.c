@@ -12,6 +12,7 @@ enum { LIST_BYTES = 120 };
 static const char *list_types(const struct expr *args, char out[LIST_BYTES])
 {
     size_t used = (size_t)snprintf(out, LIST_BYTES, "(");
+
     for (; args && used < LIST_BYTES - 40; args = args->next) {
         char name[TYPE_NAME_BYTES];
         used += (size_t)snprintf(out + used, LIST_BYTES - used, "%s%s", type_name(args->type, name),
@@ -60,6 +61,7 @@ bool check_length(struct checker *checker, struct expr *length, uint8_t *out)
 static bool check_array(struct checker *checker, struct expr *expr)
 {
     struct type element = type_element(expr->type);
+
     if (expr->arg_count != expr->type.count) {
         return CHECK_FAIL(checker, expr->at, "an array of %d elements gets %d values",
                           expr->type.count, expr->arg_count);
@@ -87,6 +89,7 @@ static bool check_components(struct checker *checker, struct expr *expr)
     struct type type = expr->type;
     int want = type_components(type), have = 0;
     bool ok = true;
+
     for (const struct expr *arg = expr->args; arg; arg = arg->next) {
         bool whole_matrix =
             type_is_matrix(arg->type) && (expr->arg_count > 1 || type.base != BASE_FLOAT);
@@ -154,6 +157,7 @@ bool check_list(struct checker *checker, struct expr *list, struct type *type, b
 bool check_construct(struct checker *checker, struct expr *expr)
 {
     char name[TYPE_NAME_BYTES];
+
     if (expr->list) {
         return CHECK_FAIL(checker, expr->at, "{ } can only be the initial value of a variable");
     }
@@ -205,6 +209,7 @@ static bool common_rows(const struct expr *args, int *out)
 static enum base common_base(const struct expr *args)
 {
     enum base base = BASE_INT;
+
     for (; args; args = args->next) {
         if (!type_is_number(args->type)) {
             return BASE_VOID;
@@ -269,6 +274,7 @@ static bool match_vectors(const struct builtin *row, const struct expr *args, st
     int rows;
     bool shape = common_rows(args, &rows);
     enum base base = common_base(args);
+
     if (!shape) {
         return false;
     }
@@ -307,6 +313,7 @@ static bool match_vectors(const struct builtin *row, const struct expr *args, st
 static bool match_sizes(const struct builtin *row, const struct expr *args, struct match *match)
 {
     bool fits = true;
+
     match->result = builtin_jet_type(row->sizes[0]);
     for (int i = 0; args; args = args->next, i++) {
         match->wanted[i] = builtin_jet_type(row->sizes[1 + i]);
@@ -334,6 +341,7 @@ static bool match_row(const struct builtin *row, const struct expr *args, struct
 static bool check_product(struct checker *checker, struct expr *expr)
 {
     struct expr *a = expr->args, *b = a->next;
+
     if (type_is_vector(a->type) && type_is_vector(b->type)) {
         return CHECK_FAIL(checker, expr->at, "mul of two vectors: write dot()");
     }
@@ -349,6 +357,7 @@ static bool apply(struct checker *checker, struct expr *expr, const struct built
                   const struct match *match)
 {
     int i = 0;
+
     for (struct expr **arg = &expr->args; *arg; arg = &(*arg)->next, i++) {
         if (!check_convert(checker, arg, match->wanted[i])) {
             return false;
@@ -382,6 +391,7 @@ static bool check_builtin(struct checker *checker, struct expr *expr)
     const struct builtin *first = builtin_find(name, checker->tree->ours), *row = first;
     bool counted = false;
     int least = first->arguments, most = least;
+
     for (; row->name && strcmp(row->name, name) == 0; row++) {
         struct match match;
         least = row->arguments < least ? row->arguments : least;
@@ -432,6 +442,7 @@ static int cost_of(const struct variable *parameter, const struct expr *arg)
 static int cost_of_all(const struct function *function, const struct expr *args, int count)
 {
     int cost = 0;
+
     if (function->parameter_count != count) {
         return -1;
     }
@@ -450,6 +461,7 @@ static bool refuse_call(struct checker *checker, const struct expr *expr)
     const struct function *only = expr->name->functions;
     char given[LIST_BYTES], wanted[TYPE_NAME_BYTES], type[TYPE_NAME_BYTES];
     int number = 1;
+
     if (only->overload) {
         return CHECK_FAIL(checker, expr->at, "no function %.40s takes %s", expr->name->text,
                           list_types(expr->args, given));
@@ -471,6 +483,7 @@ static bool refuse_call(struct checker *checker, const struct expr *expr)
 static bool fit_arguments(struct checker *checker, struct expr *expr)
 {
     const struct variable *p = expr->function->parameters;
+
     for (struct expr **arg = &expr->args; *arg; arg = &(*arg)->next, p = p->next) {
         if (p->direction != DIRECTION_IN) {
             expr->effects = true;
@@ -488,6 +501,7 @@ static bool check_function(struct checker *checker, struct expr *expr)
 {
     struct function *best = NULL;
     int best_cost = -1, same = 0;
+
     for (struct function *f = expr->name->functions; f; f = f->overload) {
         int cost = cost_of_all(f, expr->args, expr->arg_count);
         if (cost >= 0 && (best_cost < 0 || cost < best_cost)) {
@@ -532,6 +546,7 @@ static bool unknown_function(struct checker *checker, const struct expr *expr)
     char hint[80];
     const char *name = expr->name->text, *advice = builtin_advice(name);
     struct suggestion suggestion = {.text = name};
+
     if (advice) {
         return CHECK_FAIL(checker, expr->at, "%.40s is not known here: %s", name, advice);
     }

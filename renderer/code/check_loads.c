@@ -15,6 +15,7 @@ static long most(long a, long b)
 long check_work_of_builtin(const struct expr *expr)
 {
     long count = most(type_components(expr->type), type_components(expr->args->type));
+
     return expr->builtin->weight > 0 ? count * expr->builtin->weight : count;
 }
 
@@ -133,6 +134,7 @@ long check_load(const struct expr *expr)
 long check_load_written(const struct expr *place)
 {
     long load = 0;
+
     for (; place && !place->value; place = place->a) {
         if (place->kind == EXPR_INDEX) {
             load += load_of_index(place, true) - load_of_index(place, false);

@@ -14,6 +14,7 @@ static bool refuse_loop(struct checker *checker, struct at at, const char *why)
 static struct variable *check_start(struct checker *checker, struct stmt *stmt)
 {
     struct stmt *one = stmt->other->kind == STMT_DECLARE ? stmt->other->body : NULL;
+
     if (!one || one->next || !one->expr) {
         refuse_loop(checker, stmt->other->at, "the loop does not begin with one variable");
         return NULL;
@@ -50,6 +51,7 @@ static bool check_bound(struct checker *checker, struct stmt *stmt, enum op *out
                                        [OP_GREATER_EQUAL] = OP_LESS_EQUAL,
                                        [OP_UNEQUAL] = OP_UNEQUAL};
     struct expr *test = stmt->expr;
+
     if (!check_value(checker, test)) {
         return false;
     }
@@ -75,6 +77,7 @@ static bool check_bound(struct checker *checker, struct stmt *stmt, enum op *out
 static bool check_step(struct checker *checker, struct stmt *stmt)
 {
     struct expr *step = stmt->advance;
+
     if (!check_value(checker, step)) {
         return false;
     }
@@ -123,6 +126,7 @@ static bool count_trips(struct checker *checker, struct stmt *stmt, enum op op, 
 {
     bool whole = stmt->variable->type.base != BASE_FLOAT;
     double at = stmt->start;
+
     while (stmt->trips <= LIMIT_CODE_TRIPS && goes_on(op, at, bound)) {
         double next = whole ? at + stmt->step : (double)((float)at + (float)stmt->step);
         if (next == at || (!fits(stmt->variable->type, next) && goes_on(op, next, bound))) {
@@ -140,6 +144,7 @@ bool check_for(struct checker *checker, struct stmt *stmt)
 {
     enum op op = OP_NONE;
     double bound = 0;
+
     if (!stmt->expr || !stmt->advance) {
         return refuse_loop(checker, stmt->at,
                            stmt->expr ? "the loop has no step" : "the loop has no bound");

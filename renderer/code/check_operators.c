@@ -15,6 +15,7 @@ bool check_convert(struct checker *checker, struct expr **expr, struct type to)
 {
     struct expr *from = *expr;
     struct type type = from->type;
+
     if (type_equal(type, to)) {
         return true;
     }
@@ -38,6 +39,7 @@ bool check_convert(struct checker *checker, struct expr **expr, struct type to)
 bool check_fit(struct checker *checker, struct expr **expr, struct type to, const char *what)
 {
     char wanted[TYPE_NAME_BYTES], given[TYPE_NAME_BYTES];
+
     if (check_convert(checker, expr, to)) {
         return true;
     }
@@ -54,6 +56,7 @@ bool check_fit(struct checker *checker, struct expr **expr, struct type to, cons
 static bool refuse(struct checker *checker, const struct expr *expr)
 {
     char a[TYPE_NAME_BYTES], b[TYPE_NAME_BYTES];
+
     return CHECK_FAIL(checker, expr->at, "%s%s cannot join %s and %s", tree_op_text(expr->op),
                       expr->kind == EXPR_ASSIGN ? "=" : "", type_name(expr->a->type, a),
                       type_name(expr->b->type, b));
@@ -64,6 +67,7 @@ static bool join_bases(struct checker *checker, struct expr *expr, bool keep, bo
 {
     struct type a = expr->a->type, b = expr->b->type;
     bool to_b = !keep && base_fits((enum base)a.base, (enum base)b.base);
+
     if (!to_b && !base_fits((enum base)b.base, (enum base)a.base)) {
         return false;
     }
@@ -102,6 +106,7 @@ static bool join_shapes(enum op op, struct type a, struct type b, struct type *o
 static bool check_zero(struct checker *checker, const struct expr *expr)
 {
     const double *value = expr->b->value;
+
     for (int i = 0; value && i < type_components(expr->b->type); i++) {
         if (value[i] == 0) {
             return CHECK_FAIL(checker, expr->at, "a division by 0");
@@ -113,6 +118,7 @@ static bool check_zero(struct checker *checker, const struct expr *expr)
 static bool check_arithmetic(struct checker *checker, struct expr *expr, bool keep)
 {
     bool divides = expr->op == OP_DIVIDE || expr->op == OP_REMAINDER;
+
     if (!type_is_number(expr->a->type) || !type_is_number(expr->b->type)) {
         return refuse(checker, expr);
     }
@@ -135,6 +141,7 @@ static bool check_bits(struct checker *checker, struct expr *expr, bool keep)
 {
     bool shifts = expr->op == OP_SHIFT_LEFT || expr->op == OP_SHIFT_RIGHT;
     struct type a = expr->a->type, b = expr->b->type;
+
     if (!type_is_integer(a) || !type_is_integer(b)) {
         return refuse(checker, expr);
     }
@@ -154,6 +161,7 @@ static bool check_comparison(struct checker *checker, struct expr *expr)
 {
     struct type a = expr->a->type, b = expr->b->type;
     bool order = expr->op != OP_EQUAL && expr->op != OP_UNEQUAL;
+
     expr->type = type_vector(BASE_BOOL, 1);
     if (order && (type_is_vector(a) || type_is_vector(b))) {
         return CHECK_FAIL(checker, expr->at,

@@ -32,6 +32,7 @@ static bool uses(const struct expr *expr, const struct variable *variable)
 static const struct variable *find_clash(const struct expr *part, const struct expr *other)
 {
     const struct variable *clash = NULL;
+
     if (!part || !part->effects) {
         return NULL;
     }
@@ -58,6 +59,7 @@ static bool clash(struct checker *checker, struct at at, const struct expr *one,
                   const struct expr *two)
 {
     const struct variable *variable = find_clash(one, two);
+
     variable = variable ? variable : find_clash(two, one);
     return variable &&
            !CHECK_FAIL(checker, at,
@@ -109,6 +111,7 @@ static bool overlap(const struct expr *one, const struct expr *two)
 static bool check_results(struct checker *checker, const struct expr *call)
 {
     const struct variable *p = call->function->parameters, *q;
+
     for (const struct expr *one = call->args; one; one = one->next, p = p->next) {
         q = p->next;
         for (const struct expr *two = one->next; two; two = two->next, q = q->next) {
@@ -126,6 +129,7 @@ bool check_order(struct checker *checker, const struct expr *expr)
 {
     bool ordered = expr->kind == EXPR_COMMA || expr->kind == EXPR_CHOICE ||
                    (expr->kind == EXPR_BINARY && (expr->op == OP_AND || expr->op == OP_OR));
+
     if (!expr->effects || ordered) {
         return true;
     }

@@ -14,6 +14,7 @@
 static bool all_constant(const struct expr *expr)
 {
     const struct expr *parts[] = {expr->a, expr->b, expr->c};
+
     for (size_t i = 0; i < 3; i++) {
         if (parts[i] && !parts[i]->value) {
             return false;
@@ -76,6 +77,7 @@ static bool unknown_variable(struct checker *checker, const struct expr *expr)
 {
     char hint[80];
     struct suggestion suggestion = {.text = expr->name->text};
+
     for (int i = 0; i <= checker->scope; i++) {
         for (struct variable *v = checker->scopes[i]; v; v = v->next_in_scope) {
             suggest_consider(&suggestion, v->name->text);
@@ -92,6 +94,7 @@ static bool unknown_variable(struct checker *checker, const struct expr *expr)
 static bool check_variable(struct checker *checker, struct expr *expr)
 {
     struct variable *variable = expr->name->variable;
+
     if (!variable) {
         return unknown_variable(checker, expr);
     }
@@ -111,6 +114,7 @@ static bool check_unary(struct checker *checker, struct expr *expr)
     bool ok = expr->op == OP_NOT      ? type_is(type, BASE_BOOL)
               : expr->op == OP_INVERT ? type_is_integer(type)
                                       : type_is_number(type);
+
     if (!ok) {
         return CHECK_FAIL(checker, expr->at, "%s cannot be used on %s%s", tree_op_text(expr->op),
                           type_name(type, name),
@@ -124,6 +128,7 @@ static bool check_unary(struct checker *checker, struct expr *expr)
 static bool check_increment(struct checker *checker, struct expr *expr)
 {
     char name[TYPE_NAME_BYTES];
+
     if (!check_place(checker, expr->a)) {
         return false;
     }
@@ -139,6 +144,7 @@ static bool check_increment(struct checker *checker, struct expr *expr)
 static bool check_choice(struct checker *checker, struct expr *expr)
 {
     char b[TYPE_NAME_BYTES], c[TYPE_NAME_BYTES];
+
     if (!type_is(expr->a->type, BASE_BOOL)) {
         return CHECK_FAIL(checker, expr->at, "the condition of ? is %s, not bool",
                           type_name(expr->a->type, b));
@@ -176,6 +182,7 @@ static bool check_assign(struct checker *checker, struct expr *expr)
 static bool refuse_place(struct checker *checker, const struct expr *expr)
 {
     const struct variable *v = expr->variable;
+
     if (v->counter) {
         return CHECK_FAIL(checker, expr->at, "%.40s counts a loop; it changes in its head alone",
                           v->name->text);
@@ -191,6 +198,7 @@ static bool refuse_place(struct checker *checker, const struct expr *expr)
 bool check_place(struct checker *checker, const struct expr *expr)
 {
     bool indexed = false;
+
     for (const struct expr *e = expr;; e = e->a) {
         switch (e->kind) {
         case EXPR_VARIABLE:
@@ -236,6 +244,7 @@ static bool check_index(struct checker *checker, struct expr *expr)
 {
     char name[TYPE_NAME_BYTES];
     struct type type = expr->a->type;
+
     if ((type_components(type) < 2 && type.count == 0) || type_is_surface(type)) {
         return CHECK_FAIL(checker, expr->at, "%s has no index", type_name(type, name));
     }
@@ -260,6 +269,7 @@ static bool check_swizzle(struct checker *checker, struct expr *expr)
     struct type type = expr->a->type;
     size_t count = strlen(text);
     const char *set = NULL;
+
     for (size_t i = 0; i < 3 && !set; i++) {
         set = strchr(sets[i], text[0]) ? sets[i] : NULL;
     }
@@ -285,6 +295,7 @@ static bool check_fragment_member(struct checker *checker, struct expr *expr)
 {
     static const char *const fields[] = {"world_position", "object_position", "world_normal",
                                          "ray_direction", "ray_distance"};
+
     enum { FIELDS = sizeof fields / sizeof fields[0] };
     char hint[80];
     struct suggestion suggestion = {.text = expr->name->text};
@@ -307,6 +318,7 @@ static bool check_surface_member(struct checker *checker, struct expr *expr)
 {
     char hint[80];
     struct suggestion suggestion = {.text = expr->name->text};
+
     for (int i = 0; i < SURFACE_MEMBERS; i++) {
         if (strcmp(surface_members[i].name, expr->name->text) == 0) {
             expr->kind = EXPR_PART;
@@ -325,6 +337,7 @@ static bool check_surface_member(struct checker *checker, struct expr *expr)
 static bool check_primitive_member(struct checker *checker, struct expr *expr)
 {
     static const double no_id = 0;
+
     if (strcmp(expr->name->text, "data") == 0) {
         expr->kind = EXPR_DATA;
         expr->type = type_vector(BASE_FLOAT, 1);
@@ -348,6 +361,7 @@ static bool check_member(struct checker *checker, struct expr *expr)
 {
     char name[TYPE_NAME_BYTES];
     struct type type = expr->a->type;
+
     if (type.base == BASE_FRAGMENT) {
         return check_fragment_member(checker, expr);
     }
@@ -368,6 +382,7 @@ static bool check_member(struct checker *checker, struct expr *expr)
 static bool check_parts(struct checker *checker, struct expr *expr)
 {
     struct expr *parts[] = {expr->a, expr->b, expr->c};
+
     for (size_t i = 0; i < 3; i++) {
         if (parts[i] && !check_value(checker, parts[i])) {
             return false;

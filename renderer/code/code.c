@@ -17,6 +17,7 @@
 static bool check_length_of(const char *text, struct error *err)
 {
     size_t length = strlen(text);
+
     return length <= LIMIT_CODE_BYTES ||
            error_set_at(err, ERROR_LIMIT, "", 1, 1,
                         "code of %zu bytes, above the maximum %d (code_bytes)", length,
@@ -81,6 +82,7 @@ int code_work(const struct code *code)
 static void set_numbers(const struct machine_code *code, const double *n, double *frame)
 {
     double *to = frame + code->numbers, *data = frame + code->data;
+
     for (int i = 0; i < code->number_count; i++) {
         to[i] = code->number_bases[i] == BASE_INT    ? floor(n[i] + 0.5)
                 : code->number_bases[i] == BASE_BOOL ? n[i] != 0
@@ -149,6 +151,7 @@ double code_distance(const struct code *code, const double p[3], const double *n
                      struct code_fault *fault)
 {
     struct code_call call = {.p = p, .numbers = n, .fault = fault};
+
     run_any(code, &call);
     return fabs(call.out[0]) < CODE_FAR ? call.out[0] : CODE_FAR;
 }
@@ -169,6 +172,7 @@ void code_surface(const struct code *code, const struct code_shading *at, const 
 {
     struct code_call call = {.shading = at, .numbers = n, .fault = fault};
     bool is_number = true;
+
     run_any(code, &call);
     for (int i = 0; i < SURFACE_NUMBERS; i++) {
         is_number = is_number && fabs(call.out[i]) < CODE_FAR;
@@ -194,6 +198,7 @@ void code_shade(const struct code *code, const struct code_shading *at, const do
     static const double magenta[4] = {1, 0, 1, 1};
     struct code_call call = {.shading = at, .numbers = n, .fault = fault, .out = {0, 0, 0, 1}};
     bool is_color = true;
+
     run_any(code, &call);
     for (int i = 0; i < 4; i++) {
         is_color = is_color && fabs(call.out[i]) < CODE_FAR;

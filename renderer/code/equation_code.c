@@ -170,6 +170,7 @@ static uint16_t add_root(struct equation *equation)
         equation->relation == EQUATION_GREATER || equation->relation == EQUATION_GREATER_EQUAL;
     const uint16_t first = turned ? equation->right : equation->left;
     const uint16_t second = turned ? equation->left : equation->right;
+
     if (!turned && right->op == EQUATION_NUMBER && right->value == 0) {
         return equation->left;
     }
@@ -187,6 +188,7 @@ char *equation_code(const struct equation *equation, const char *const *letters,
     const uint16_t root = add_root(&whole);
     struct equation_writer w = {
         .equation = &whole, .letters = letters, .out = open_memstream(&text, &length)};
+
     mark_used(&w);
     w.used[root] = true;
     write_functions(&w);

@@ -21,6 +21,7 @@ static void write_dual_rule(const struct equation_writer *w, const struct equati
                             uint16_t a)
 {
     char argument[16];
+
     snprintf(argument, sizeof argument, "g%d.w", a);
     fprintf(w->out, "jet_dual_of(g%d, ", a);
     equation_write_rule(w, rule->value, argument);
@@ -34,6 +35,7 @@ static void write_dual_power_below(const struct equation_writer *w, size_t index
 {
     const struct equation_node *node = node_of(w, (uint16_t)index);
     char to[16], from[16];
+
     snprintf(to, sizeof to, "q%zu", index);
     snprintf(from, sizeof from, "g%d.w", node->args[0]);
     if (node->op == EQUATION_WHOLE && size_of_power(node) > 1) {
@@ -45,6 +47,7 @@ static void write_dual_whole(const struct equation_writer *w, size_t index)
 {
     const struct equation_node *node = node_of(w, (uint16_t)index);
     const int n = size_of_power(node), a = node->args[0];
+
     if (n == 0) {
         fputs("vec4(0.0, 0.0, 0.0, 1.0)", w->out);
     } else if (n == 1) {
@@ -59,6 +62,7 @@ static void write_dual_below(const struct equation_writer *w, size_t index,
                              const struct equation_node *node)
 {
     char argument[16];
+
     snprintf(argument, sizeof argument, "h%zu.w", index);
     fprintf(w->out, "vec4 h%zu = ", index);
     if (node->op == EQUATION_DIVIDE) {
@@ -84,6 +88,7 @@ static void write_dual_quotient(const struct equation_writer *w, size_t index,
 {
     const uint16_t a = node->args[0], b = node->args[1];
     char argument[16];
+
     if (node->op == EQUATION_WHOLE) {
         fprintf(w->out, "h%zu", index);
     } else if (!varies(w, b)) {
@@ -102,6 +107,7 @@ static void write_dual_power(const struct equation_writer *w, const struct equat
 {
     const uint16_t a = node->args[0], b = node->args[1];
     char base[16], exponent[16];
+
     snprintf(base, sizeof base, varies(w, a) ? "g%d.w" : "s%d", a);
     snprintf(exponent, sizeof exponent, varies(w, b) ? "g%d.w" : "s%d", b);
     fprintf(w->out, "vec4(");
@@ -119,6 +125,7 @@ static void write_dual_power(const struct equation_writer *w, const struct equat
 static void write_dual_call(const struct equation_writer *w, const struct equation_node *node)
 {
     const struct equation_rule *rule = &equation_rules[node->which];
+
     if (rule->slope) {
         write_dual_rule(w, rule, node->args[0]);
         return;
@@ -135,6 +142,7 @@ void equation_write_gradient(const struct equation_writer *w, size_t index)
     static const char *const axes[] = {"1.0, 0.0, 0.0, p.x", "0.0, 1.0, 0.0, p.y",
                                        "0.0, 0.0, 1.0, p.z"};
     const struct equation_node *node = &w->equation->nodes[index];
+
     write_dual_power_below(w, index);
     if (divides(w, node)) {
         write_dual_below(w, index, node);

@@ -15,6 +15,7 @@
 static int degree_of(const struct equation_node *node, const int *degrees)
 {
     const int a = degrees[node->args[0]], b = degrees[node->args[1]];
+
     if (!node->varies) {
         return 0;
     }
@@ -40,6 +41,7 @@ static int degree_of(const struct equation_node *node, const int *degrees)
 int equation_degree(const struct equation *equation)
 {
     int degrees[LIMIT_EQUATION_NODES + 1];
+
     for (size_t i = 0; i < equation->count; i++) {
         const struct equation_node *node = &equation->nodes[i];
         degrees[i] = degree_of(node, degrees);
@@ -107,6 +109,7 @@ static struct expansion begin(int degree)
 static void add(struct expansion *to, const struct expansion *from, double factor)
 {
     const double *c = from->c;
+
     for (int i = 0; i <= from->degree; i++) {
         for (int j = 0; j <= from->degree - i; j++) {
             double *row = to->c + polynomial_at(to->degree, i, j);
@@ -121,6 +124,7 @@ static void add(struct expansion *to, const struct expansion *from, double facto
 static void add_shifted(struct expansion *to, const struct expansion *b, const int by[3], double c)
 {
     const double *from = b->c;
+
     for (int i = 0; i <= b->degree; i++) {
         for (int j = 0; j <= b->degree - i; j++) {
             double *row = to->c + polynomial_at(to->degree, i + by[0], j + by[1]) + by[2];
@@ -135,6 +139,7 @@ static struct expansion product(const struct expansion *a, const struct expansio
 {
     struct expansion out = begin(a->degree + b->degree);
     const double *c = a->c;
+
     for (int i = 0; i <= a->degree; i++) {
         for (int j = 0; j <= a->degree - i; j++) {
             for (int k = 0; k <= a->degree - i - j; k++, c++) {
@@ -150,6 +155,7 @@ static struct expansion product(const struct expansion *a, const struct expansio
 static struct expansion power(const struct expansion *a, int n)
 {
     struct expansion out = begin(0);
+
     out.c[0] = 1;
     for (int i = 0; i < n; i++) {
         struct expansion next = product(&out, a);
@@ -162,6 +168,7 @@ static struct expansion power(const struct expansion *a, int n)
 static struct expansion sum(const struct expansion *a, const struct expansion *b, double factor)
 {
     struct expansion out = begin(a->degree > b->degree ? a->degree : b->degree);
+
     add(&out, a, 1);
     add(&out, b, factor);
     return out;
@@ -170,6 +177,7 @@ static struct expansion sum(const struct expansion *a, const struct expansion *b
 static struct expansion scaled(const struct expansion *a, double factor)
 {
     struct expansion out = begin(a->degree);
+
     add(&out, a, factor);
     return out;
 }
@@ -177,6 +185,7 @@ static struct expansion scaled(const struct expansion *a, double factor)
 static struct expansion expand_axis(int axis, double extent)
 {
     struct expansion out = begin(1);
+
     out.c[polynomial_at(1, axis == 0, axis == 1) + (axis == 2)] = extent;
     return out;
 }
@@ -211,6 +220,7 @@ static struct expansion expand(const struct equation_node *node, const struct ex
 static void normalize(double *c, size_t count)
 {
     double most = 0;
+
     for (size_t i = 0; i < count; i++) {
         c[i] = isfinite(c[i]) ? c[i] : 0;
         most = fmax(most, fabs(c[i]));
@@ -238,6 +248,7 @@ void equation_expand(const struct equation *equation, const double *letters, dou
     const bool turned =
         equation->relation == EQUATION_GREATER || equation->relation == EQUATION_GREATER_EQUAL;
     struct expansion whole = {degree, out};
+
     mark_used(equation, used);
     memset(out, 0, count_of(degree) * sizeof *out);
     for (size_t i = 0; i < equation->count; i++) {

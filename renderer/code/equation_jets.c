@@ -6,6 +6,7 @@ static void write_jet_sum(const struct equation_writer *w, const struct equation
 {
     const uint16_t a = node->args[0], b = node->args[1];
     const bool minus = node->op == EQUATION_SUBTRACT;
+
     if (!varies(w, b)) {
         fprintf(w->out, "jet_moved(j%d, %ss%d)", a, minus ? "-" : "", b);
     } else if (!varies(w, a)) {
@@ -29,6 +30,7 @@ static void write_jet_quotient(const struct equation_writer *w, const struct equ
 {
     const uint16_t a = node->args[0], b = node->args[1];
     char argument[16], below[64];
+
     snprintf(below, sizeof below, "jet_of(j%d, range_reciprocal(j%d[2].xy))", b, b);
     if (!varies(w, b)) {
         snprintf(argument, sizeof argument, "s%d", b);
@@ -47,6 +49,7 @@ static void write_jet_power_below(const struct equation_writer *w, size_t index)
 {
     const struct equation_node *node = node_of(w, (uint16_t)index);
     char to[16], from[16];
+
     snprintf(to, sizeof to, "q%zu", index);
     snprintf(from, sizeof from, "e%zu", index);
     if (node->op == EQUATION_WHOLE && size_of_power(node) > 1) {
@@ -59,6 +62,7 @@ static void write_jet_whole(const struct equation_writer *w, size_t index,
                             const struct equation_node *node)
 {
     const int n = size_of_power(node), a = node->args[0];
+
     if (n == 0) {
         fprintf(w->out, "jet_moved(jet_scaled(j%d, 0.0), 1.0)", a);
     } else if (n == 1) {
@@ -76,6 +80,7 @@ static void write_jet_power(const struct equation_writer *w, const struct equati
 {
     const uint16_t a = node->args[0], b = node->args[1];
     char logarithm[64], product[160];
+
     if (varies(w, a)) {
         snprintf(logarithm, sizeof logarithm, "jet_of(j%d, range_log(j%d[2].xy))", a, a);
     } else {
@@ -101,6 +106,7 @@ static void write_jet_call(const struct equation_writer *w, const struct equatio
 {
     const char *name = equation_functions[node->which].name;
     const uint16_t a = node->args[0];
+
     if (equation_rules[node->which].slope) {
         fprintf(w->out, "jet_of(j%d, range_%s(j%d[2].xy))", a, name, a);
         return;
@@ -115,6 +121,7 @@ static void write_jet_call(const struct equation_writer *w, const struct equatio
 void equation_write_jet(const struct equation_writer *w, size_t index)
 {
     const struct equation_node *node = &w->equation->nodes[index];
+
     if (node->op == EQUATION_AXIS) {
         fprintf(w->out, "j%zu[2].xy = p.%c + sides;\n", index, "xyz"[node->which]);
         return;

@@ -23,6 +23,7 @@ static void point_at(const struct line *line, double t, double out[3])
 static double value_at(const struct line *line, double t)
 {
     double p[3];
+
     point_at(line, t, p);
     return equation_value(line->equation, p, line->letters);
 }
@@ -33,6 +34,7 @@ static bool has_jump(const struct line *line, double low, double high, double *o
 {
     double below = value_at(line, low), above = value_at(line, high);
     const double first = fabs(above - below);
+
     for (int i = 0; i < HALVINGS; i++) {
         const double t = (low + high) / 2, value = value_at(line, t);
         if ((value < 0) == (below < 0)) {
@@ -50,6 +52,7 @@ static bool has_jump(const struct line *line, double low, double high, double *o
 static bool find_on(const struct line *line, double *out_t)
 {
     double before = value_at(line, 0);
+
     for (int i = 1; i <= PARTS; i++) {
         const double t = (double)i / PARTS, value = value_at(line, t);
         if (isfinite(before) && isfinite(value) && (before < 0) != (value < 0) &&
@@ -66,6 +69,7 @@ static bool find_on(const struct line *line, double *out_t)
 static double even(int n, int dimension)
 {
     static const double root = 1.1127756842787055;
+
     return fmod(0.5 + n * pow(root, -1 - dimension), 1);
 }
 

@@ -19,6 +19,7 @@ void equation_write_rule(const struct equation_writer *w, const char *text, cons
 static void write_number(FILE *out, double value)
 {
     char text[40];
+
     snprintf(text, sizeof text, "%.9g", value);
     fprintf(out, "%s%s", text, strpbrk(text, ".e") ? "" : ".0");
 }
@@ -45,6 +46,7 @@ static void write_known_power(const struct equation_writer *w, size_t index)
 {
     const struct equation_node *node = node_of(w, (uint16_t)index);
     char to[16], from[16];
+
     snprintf(to, sizeof to, "q%zu", index);
     snprintf(from, sizeof from, "s%d", node->args[0]);
     if (node->op == EQUATION_WHOLE && size_of_power(node) > 0) {
@@ -56,6 +58,7 @@ static void write_known_whole(const struct equation_writer *w, size_t index)
 {
     const struct equation_node *node = node_of(w, (uint16_t)index);
     char power[16];
+
     snprintf(power, sizeof power, size_of_power(node) > 0 ? "q%zu" : "1.0", index);
     equation_write_rule(w, node->value < 0 ? equation_reciprocal.value : "$", power);
 }
@@ -67,6 +70,7 @@ void equation_write_scalar(const struct equation_writer *w, size_t index)
     const struct equation_node *node = &w->equation->nodes[index];
     const int a = node->args[0], b = node->args[1];
     char argument[16];
+
     write_known_power(w, index);
     fprintf(w->out, "float s%zu = ", index);
     switch ((enum equation_op)node->op) {

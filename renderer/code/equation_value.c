@@ -56,6 +56,7 @@ static double node_value(const struct equation_node *node, const double *in, con
                          const double *letters)
 {
     const double a = in[node->args[0]], b = in[node->args[1]];
+
     switch ((enum equation_op)node->op) {
     case EQUATION_NUMBER:
         return node->value;
@@ -88,6 +89,7 @@ static double node_value(const struct equation_node *node, const double *in, con
 double equation_value(const struct equation *equation, const double p[3], const double *letters)
 {
     double values[LIMIT_EQUATION_NODES + 1] = {0};
+
     for (size_t i = 0; i < equation->count; i++) {
         values[i] = node_value(&equation->nodes[i], values, p, letters);
     }

@@ -19,6 +19,7 @@ static double bounded(double x)
 static void product(const double a[2], const double b[2], double out[2])
 {
     const double p = a[0] * b[0], q = a[0] * b[1], r = a[1] * b[0], s = a[1] * b[1];
+
     out[0] = bounded(fmin(fmin(p, q), fmin(r, s)));
     out[1] = bounded(fmax(fmax(p, q), fmax(r, s)));
 }
@@ -43,6 +44,7 @@ static bool has_zero(const double x[2])
 void jet_dual_times(double *out, const double *const in[], int n)
 {
     const double *a = in[0], *b = in[1];
+
     UNUSED(n);
     for (int i = 0; i < 3; i++) {
         out[i] = a[i] * b[3] + b[i] * a[3];
@@ -62,6 +64,7 @@ void jet_dual_of(double *out, const double *const in[], int n)
 void jet_times(double *out, const double *const in[], int n)
 {
     double sum[NUMBERS] = {0};
+
     UNUSED(n);
     add_slopes(sum, in[0], in[1] + VALUE);
     add_slopes(sum, in[1], in[0] + VALUE);
@@ -74,6 +77,7 @@ void jet_times(double *out, const double *const in[], int n)
 void jet_minus(double *out, const double *const in[], int n)
 {
     const double *a = in[0], *b = in[1];
+
     UNUSED(n);
     for (int i = 0; i < 3; i++) {
         out[LEAST + i] = a[LEAST + i] - b[MOST + i];
@@ -88,6 +92,7 @@ void jet_scaled(double *out, const double *const in[], int n)
 {
     const double by[2] = {in[1][0], in[1][0]};
     double scaled[NUMBERS] = {0};
+
     UNUSED(n);
     add_slopes(scaled, in[0], by);
     product(in[0] + VALUE, by, scaled + VALUE);
@@ -110,6 +115,7 @@ void jet_of(double *out, const double *const in[], int n)
     const double slope[2] = {bounded(range[2]), bounded(range[3])};
     const double value[2] = {bounded(range[0]), bounded(range[1])};
     double chained[NUMBERS] = {0};
+
     UNUSED(n);
     add_slopes(chained, in[0], slope);
     for (int i = 0; i < NUMBERS; i++) {
@@ -124,6 +130,7 @@ void jet_even(double *out, const double *const in[], int n)
     const double range[4] = {has_zero(x) ? 0 : fmin(ends[0], ends[1]), fmax(ends[0], ends[1]),
                              x[0] < 0 ? -k * power[0] : k * power[0],
                              x[1] < 0 ? -k * power[1] : k * power[1]};
+
     jet_of(out, (const double *const[]){in[0], range}, n);
 }
 
@@ -133,6 +140,7 @@ void jet_odd(double *out, const double *const in[], int n)
     const double range[4] = {x[0] * power[0], x[1] * power[1],
                              has_zero(x) ? 0 : k * fmin(power[0], power[1]),
                              k * fmax(power[0], power[1])};
+
     jet_of(out, (const double *const[]){in[0], range}, n);
 }
 
@@ -140,12 +148,14 @@ void jet_odd(double *out, const double *const in[], int n)
 static bool turns_in(const double x[2], double at)
 {
     const double turn = 6.283185307;
+
     return floor((x[1] - at) / turn) > floor((x[0] - at) / turn);
 }
 
 static void range_of_cosine(const double x[2], double out[2])
 {
     const double ends[2] = {cos(x[0]), cos(x[1])};
+
     out[0] = turns_in(x, 3.141592654) ? -1 : fmin(ends[0], ends[1]);
     out[1] = turns_in(x, 0) ? 1 : fmax(ends[0], ends[1]);
 }
@@ -155,6 +165,7 @@ void jet_range_cos(double *out, const double *const in[], int n)
 {
     const double x[2] = {in[0][0], in[0][1]};
     const double ahead[2] = {x[0] + 1.570796327, x[1] + 1.570796327};
+
     UNUSED(n);
     range_of_cosine(x, out);
     range_of_cosine(ahead, out + 2);

@@ -115,6 +115,7 @@ static struct token *add(struct lexer *lexer, enum token_kind kind, size_t lengt
 static bool skip_comment(struct lexer *lexer)
 {
     const char *end = strstr(lexer->next + 2, "*/");
+
     if (!end) {
         return FAIL(lexer, "the comment that begins here has no end: */ is missing");
     }
@@ -143,6 +144,7 @@ static bool skip_blank(struct lexer *lexer)
 static bool matches(const char *pattern, const char *text, size_t length)
 {
     size_t fixed = strcspn(pattern, "*");
+
     return strncmp(pattern, text, fixed < length ? fixed : length) == 0 &&
            (pattern[fixed] == '*' ? length >= fixed : length == fixed);
 }
@@ -168,6 +170,7 @@ static bool read_word(struct lexer *lexer)
     const char *text = lexer->next;
     size_t length = 0;
     struct type type;
+
     while (is_word(text[length])) {
         length++;
     }
@@ -209,6 +212,7 @@ static bool read_whole(struct lexer *lexer)
     const char *text = lexer->next;
     bool hex = text[0] == '0' && (text[1] == 'x' || text[1] == 'X');
     char *end;
+
     errno = 0;
     unsigned long long number = strtoull(text, &end, 0);
     bool plain = !hex && text[0] != '0';
@@ -232,6 +236,7 @@ static bool read_number(struct lexer *lexer)
     const char *text = lexer->next;
     size_t length = strspn(text, "0123456789");
     bool whole = true;
+
     if (text[0] == '0' && (text[1] == 'x' || text[1] == 'X')) {
         return read_whole(lexer);
     }
@@ -262,6 +267,7 @@ static bool read_number(struct lexer *lexer)
 static bool refuse_character(struct lexer *lexer)
 {
     unsigned char c = (unsigned char)*lexer->next;
+
     if (c == '#') {
         return FAIL(lexer, "there is no preprocessor: for #define write const float NAME = ...;");
     }
@@ -289,6 +295,7 @@ static bool read_mark(struct lexer *lexer)
 static bool read_token(struct lexer *lexer)
 {
     const char *text = lexer->next;
+
     if (isdigit((unsigned char)*text) || (*text == '.' && isdigit((unsigned char)text[1]))) {
         return read_number(lexer);
     }
@@ -299,6 +306,7 @@ struct token *lexer_read(const char *text, bool whole, struct error *err)
 {
     struct lexer lexer = {.next = text, .at = {1, 1}, .err = err, .whole = whole};
     bool ok = skip_blank(&lexer);
+
     while (ok && *lexer.next) {
         ok = read_token(&lexer) && skip_blank(&lexer);
     }

@@ -37,6 +37,7 @@ static void lower_statements(struct lower *lower, const struct stmt *list)
 static uint16_t alloc_local(struct lower *lower, int count)
 {
     uint16_t at = lower_alloc(lower, count);
+
     lower->locals = lower->top;
     return at;
 }
@@ -58,6 +59,7 @@ static void lower_nothing(struct lower *lower, const struct variable *variable)
 static void lower_declaration(struct lower *lower, const struct stmt *stmt)
 {
     struct variable *variable = stmt->variable;
+
     if (variable->value) {
         return; /* wherever it is used, its value is */
     }
@@ -73,6 +75,7 @@ static void lower_declaration(struct lower *lower, const struct stmt *stmt)
 static void lower_if(struct lower *lower, const struct stmt *stmt)
 {
     size_t no = lower_jump(lower, STEP_UNLESS, lower_value(lower, stmt->expr));
+
     lower_statement(lower, stmt->body);
     if (stmt->other) {
         size_t end = lower_jump(lower, STEP_JUMP, 0);
@@ -90,6 +93,7 @@ static void lower_counter(struct lower *lower, const struct stmt *stmt, uint16_t
     const struct type type = stmt->variable->type;
     const enum base base = (enum base)type.base;
     struct operand at = {counter, false};
+
     if (base != BASE_FLOAT) {
         at.at = lower_join(lower, STEP_CONVERT, 1, at, (struct operand){MACHINE_NOWHERE, false},
                            (struct step){.extra = type.base, .base = BASE_FLOAT});
@@ -109,6 +113,7 @@ static void lower_for(struct lower *lower, const struct stmt *stmt)
     struct jumps breaks = {0}, continues = {0};
     struct jumps *outer_breaks = lower->breaks, *outer_continues = lower->continues;
     double trips = stmt->trips;
+
     if (stmt->trips == 0) {
         return;
     }
@@ -142,6 +147,7 @@ static void lower_return(struct lower *lower, const struct stmt *stmt)
 static void lower_block(struct lower *lower, const struct stmt *stmt)
 {
     uint16_t locals = lower->locals;
+
     if (stmt->kind == STMT_FOR) {
         lower_for(lower, stmt);
     } else if (stmt->kind == STMT_IF) {
@@ -208,6 +214,7 @@ static void close_up(const struct lower *lower)
 {
     struct machine_code *code = lower->code;
     uint16_t by = (uint16_t)(MACHINE_VALUES - lower->peak);
+
     for (size_t i = 0; i < code->step_count; i++) {
         struct step *s = &code->steps[i];
         uint16_t *const places[] = {&s->a, &s->b, &s->c, &s->out};
@@ -239,6 +246,7 @@ static void lower_inputs(struct lower *lower, const struct tree *tree)
 bool lower_tree(struct tree *tree, struct machine_code *out)
 {
     struct lower lower = {.code = out, .keep = true};
+
     lower_inputs(&lower, tree);
     for (struct function *f = tree->called; f; f = f->next_called) {
         if (f->reachable) {
@@ -258,6 +266,7 @@ bool lower_constant(const struct expr *expr, struct machine_code *scratch, doubl
 {
     size_t bytes = (size_t)type_components(expr->type) * sizeof *out;
     struct lower lower = {.code = scratch};
+
     scratch->step_count = scratch->constant_count = 0;
     uint16_t at = lower_value(&lower, expr);
     lower_step(&lower, (struct step){.kind = STEP_RETURN});

@@ -6,6 +6,7 @@
 struct operand lower_operand(struct lower *lower, const struct expr *expr, int count)
 {
     int own = type_components(expr->type);
+
     if (expr->value && own > 1) {
         bool same = true;
         for (int i = 1; i < own; i++) {
@@ -57,6 +58,7 @@ uint16_t lower_arithmetic(struct lower *lower, enum op op, struct type result, s
                           struct operand b)
 {
     int count = type_components(result);
+
     if (type_is_integer(result)) {
         uint8_t flags = result.base == BASE_UINT ? STEP_UNSIGNED : 0;
         return lower_join(lower, STEP_WHOLE, count, a, b,
@@ -86,6 +88,7 @@ uint16_t lower_product(struct lower *lower, struct type a_type, uint16_t a, stru
                         .b = b,
                         .c = (uint16_t)inner,
                         .extra = b_type.columns};
+
     step.parts = (uint8_t)(rows * b_type.columns);
     step.out = lower_alloc(lower, step.parts);
     lower_step(lower, step);
@@ -98,6 +101,7 @@ static uint16_t compare(struct lower *lower, enum op op, struct type type, struc
     const struct step of = {.base = type.base};
     int count = type_components(type);
     uint16_t out;
+
     switch (op) {
     case OP_LESS:
         return lower_join(lower, STEP_LESS, 1, a, b, of);
@@ -118,6 +122,7 @@ static uint16_t lower_logic(struct lower *lower, const struct expr *expr)
 {
     uint16_t out = lower_alloc(lower, 1);
     uint16_t a = lower_value(lower, expr->a);
+
     lower_move(lower, out, a, 1);
     uint16_t skip_unless = expr->op == OP_AND ? out : negated(lower, out);
     size_t jump = lower_jump(lower, STEP_UNLESS, skip_unless);
@@ -130,6 +135,7 @@ static uint16_t lower_logic(struct lower *lower, const struct expr *expr)
 uint16_t lower_binary(struct lower *lower, const struct expr *expr)
 {
     struct type a_type = expr->a->type, b_type = expr->b->type;
+
     if (expr->op == OP_AND || expr->op == OP_OR) {
         return lower_logic(lower, expr);
     }
@@ -159,6 +165,7 @@ uint16_t lower_unary(struct lower *lower, const struct expr *expr)
     struct operand nothing = {MACHINE_NOWHERE, false};
     struct operand a = {lower_value(lower, expr->a), false};
     bool whole = type_is_integer(expr->type);
+
     lower->origin = (struct origin){expr->at, tree_op_text(expr->op)};
     if (expr->op == OP_PLUS) {
         return a.at;
@@ -185,6 +192,7 @@ uint16_t lower_choice(struct lower *lower, const struct expr *expr)
     int count = type_components(expr->type);
     uint16_t out = lower_alloc(lower, count);
     size_t no = lower_jump(lower, STEP_UNLESS, lower_value(lower, expr->a));
+
     lower_move(lower, out, lower_value(lower, expr->b), count);
     size_t end = lower_jump(lower, STEP_JUMP, 0);
     lower_land(lower, no);

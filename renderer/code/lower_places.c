@@ -8,6 +8,7 @@
 static void spot_index(struct lower *lower, struct spot *spot, const struct expr *index)
 {
     int count = type_elements(spot->type);
+
     spot->type = type_element(spot->type);
     int stride = type_components(spot->type);
     if (index->value) {
@@ -28,6 +29,7 @@ static void spot_index(struct lower *lower, struct spot *spot, const struct expr
 static void spot_swizzle(struct spot *spot, const struct expr *expr)
 {
     uint8_t old[4] = {0, 1, 2, 3};
+
     if (spot->count > 0) {
         memcpy(old, spot->swizzle, sizeof old);
     }
@@ -41,6 +43,7 @@ static void spot_swizzle(struct spot *spot, const struct expr *expr)
 static struct spot lower_spot_index(struct lower *lower, const struct expr *expr)
 {
     struct spot spot = lower_spot(lower, expr->a);
+
     if (spot.count > 0) {
         struct type type = type_vector((enum base)spot.type.base, spot.count);
         spot = (struct spot){lower_load(lower, &spot), MACHINE_NOWHERE, type, 0, {0}};
@@ -82,6 +85,7 @@ static bool in_a_row(const struct spot *spot)
 static uint8_t packed(const struct spot *spot)
 {
     int bits = 0;
+
     for (int i = 0; i < spot->count; i++) {
         bits |= spot->swizzle[i] << (2 * i);
     }
@@ -91,6 +95,7 @@ static uint8_t packed(const struct spot *spot)
 uint16_t lower_load(struct lower *lower, const struct spot *spot)
 {
     uint16_t at = spot->at;
+
     if (spot->offset != MACHINE_NOWHERE) {
         int count = type_components(spot->type);
         at = lower_alloc(lower, count);
@@ -120,6 +125,7 @@ uint16_t lower_load(struct lower *lower, const struct spot *spot)
 void lower_store(struct lower *lower, const struct spot *spot, uint16_t from)
 {
     int count = spot->count > 0 ? spot->count : type_components(spot->type);
+
     if (spot->offset == MACHINE_NOWHERE && in_a_row(spot)) {
         uint16_t first = spot->count > 0 ? spot->swizzle[0] : 0;
         lower_move(lower, (uint16_t)(spot->at + first), from, count);
@@ -151,6 +157,7 @@ void lower_store(struct lower *lower, const struct spot *spot, uint16_t from)
 uint16_t lower_assign(struct lower *lower, const struct expr *expr, bool wanted)
 {
     struct spot spot = lower_spot(lower, expr->a);
+
     if (expr->op == OP_NONE) {
         lower_store(lower, &spot, lower_value(lower, expr->b));
         return wanted ? lower_load(lower, &spot) : 0;
@@ -179,6 +186,7 @@ uint16_t lower_increment(struct lower *lower, const struct expr *expr, bool want
     int count = type_components(expr->type);
     struct spot spot = lower_spot(lower, expr->a);
     uint16_t old = lower_load(lower, &spot);
+
     if (expr->postfix && wanted) {
         uint16_t copy = lower_alloc(lower, count);
         lower_move(lower, copy, old, count);

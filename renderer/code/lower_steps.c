@@ -64,6 +64,7 @@ uint16_t lower_number(struct lower *lower, enum base base, const double *numbers
 size_t lower_step(struct lower *lower, struct step step)
 {
     struct machine_code *code = lower->code;
+
     if (code->step_count == code->step_capacity) {
         code->step_capacity = code->step_capacity > 0 ? 2 * code->step_capacity : 64;
         code->steps = memory_resize(code->steps, code->step_capacity, sizeof *code->steps);
@@ -138,6 +139,7 @@ static bool may_go_to(const struct step *s, uint16_t to)
 void lower_move(struct lower *lower, uint16_t to, uint16_t from, int count)
 {
     struct machine_code *code = lower->code;
+
     if (to == from) {
         return;
     }

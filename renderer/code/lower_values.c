@@ -12,6 +12,7 @@ static uint16_t converted(struct lower *lower, const struct expr *arg, enum base
     enum base from = (enum base)arg->type.base;
     int count = type_components(arg->type);
     struct operand a = {lower_value(lower, arg), false};
+
     if (from == to) {
         return a.at;
     }
@@ -29,6 +30,7 @@ static uint16_t lower_matrix(struct lower *lower, const struct expr *expr)
     int size = expr->type.rows, own = expr->args->type.columns;
     uint16_t from = lower_value(lower, expr->args), out = lower_alloc(lower, size * size);
     double identity[16] = {0};
+
     for (int i = 0; i < size; i++) {
         identity[i * size + i] = own > 1;
     }
@@ -53,6 +55,7 @@ static uint16_t lower_spread(struct lower *lower, const struct expr *expr)
                         .a = converted(lower, expr->args, (enum base)expr->type.base),
                         .b = MACHINE_NOWHERE,
                         .c = MACHINE_NOWHERE};
+
     step.out = lower_alloc(lower, count);
     lower_step(lower, step);
     return step.out;
@@ -63,6 +66,7 @@ static uint16_t lower_surface(struct lower *lower, const struct expr *expr)
 {
     uint16_t color = lower_value(lower, expr->args), out = lower_alloc(lower, SURFACE_NUMBERS);
     uint16_t all = lower_number(lower, BASE_FLOAT, surface_defaults, SURFACE_NUMBERS);
+
     lower_move(lower, out, all, SURFACE_NUMBERS);
     lower_step(lower, (struct step){.kind = STEP_MOVE, .n = 3, .out = out, .a = color});
     return out;
@@ -71,6 +75,7 @@ static uint16_t lower_surface(struct lower *lower, const struct expr *expr)
 static uint16_t lower_construct(struct lower *lower, const struct expr *expr)
 {
     struct type type = expr->type;
+
     if (type_is_surface(type)) {
         return lower_surface(lower, expr);
     }
@@ -102,6 +107,7 @@ static uint16_t lower_builtin(struct lower *lower, const struct expr *expr)
     struct operand in[BUILTIN_ARGUMENTS];
     int count = type_components(expr->type), i = 0;
     bool together = row->whole != NULL;
+
     for (int k = 0; k < BUILTIN_ARGUMENTS; k++) {
         in[k] = (struct operand){MACHINE_NOWHERE, false};
     }
@@ -137,6 +143,7 @@ static uint16_t lower_call(struct lower *lower, const struct expr *expr)
     uint16_t values[TREE_PARAMETERS];
     int i = 0, count = type_components(function->result);
     const struct variable *parameter = function->parameters;
+
     for (const struct expr *arg = expr->args; arg; arg = arg->next, parameter = parameter->next) {
         if (parameter->direction == DIRECTION_IN) {
             values[i++] = type_is_handle(arg->type) ? 0 : lower_value(lower, arg);
@@ -182,6 +189,7 @@ static uint16_t lower_constant_value(struct lower *lower, const struct expr *exp
     struct variable *variable = expr->kind == EXPR_VARIABLE ? expr->variable : NULL;
     enum base base = type_is_surface(expr->type) ? BASE_FLOAT : (enum base)expr->type.base;
     int count = type_components(expr->type);
+
     if (variable && lower->keep && count > 1) {
         if (!variable->placed) {
             variable->at_frame = lower_number(lower, base, expr->value, count);

@@ -32,6 +32,7 @@ static bool is_bad(struct parser *parser)
 bool parser_unexpected(struct parser *parser, const char *expected)
 {
     const struct token *token = parser->token;
+
     if (is_bad(parser)) {
         return false;
     }
@@ -45,6 +46,7 @@ bool parser_unexpected(struct parser *parser, const char *expected)
 bool parser_take(struct parser *parser, enum token_kind kind)
 {
     bool same = parser->token->kind == kind;
+
     parser->token += same;
     return same;
 }
@@ -52,6 +54,7 @@ bool parser_take(struct parser *parser, enum token_kind kind)
 bool parser_expect(struct parser *parser, enum token_kind kind, const char *where)
 {
     char expected[80];
+
     if (parser_take(parser, kind)) {
         return true;
     }
@@ -62,6 +65,7 @@ bool parser_expect(struct parser *parser, enum token_kind kind, const char *wher
 static struct stmt *statement(struct parser *parser, enum stmt_kind kind)
 {
     struct stmt *stmt = tree_alloc(parser->tree, sizeof *stmt);
+
     stmt->kind = kind;
     stmt->at = parser->token->at;
     return stmt;
@@ -76,6 +80,7 @@ struct qualifiers {
 static struct qualifiers take_qualifiers(struct parser *parser)
 {
     struct qualifiers seen = {false, false};
+
     for (;; parser->token++) {
         switch (parser->token->kind) {
         case TOKEN_CONST:
@@ -99,6 +104,7 @@ static struct qualifiers take_qualifiers(struct parser *parser)
 static bool unknown_word(struct parser *parser, const struct token *token)
 {
     char text[41], hint[80];
+
     snprintf(text, sizeof text, "%.*s", token->length < 40 ? token->length : 40, token->text);
     struct suggestion suggestion = {.text = text};
     for (size_t i = 0; type_name_at(i); i++) {
@@ -128,6 +134,7 @@ static bool expect_type(struct parser *parser, struct type *out)
 static bool parse_length(struct parser *parser, struct variable *variable)
 {
     struct at at = parser->token->at;
+
     if (!parser_take(parser, TOKEN_OPEN_BRACKET)) {
         return true;
     }
@@ -147,6 +154,7 @@ static struct stmt *parse_declarator(struct parser *parser, const struct variabl
 {
     struct stmt *stmt = statement(parser, STMT_DECLARE);
     const struct token *token = parser->token;
+
     if (token->kind != TOKEN_NAME) {
         parser_unexpected(parser, "a name for the variable");
         return NULL;
@@ -169,6 +177,7 @@ static struct stmt *parse_declarator(struct parser *parser, const struct variabl
 struct stmt *parser_declarators(struct parser *parser, struct variable *model)
 {
     struct stmt *block = statement(parser, STMT_DECLARE), **last = &block->body;
+
     do {
         struct stmt *one = parse_declarator(parser, model);
         if (!one) {
@@ -184,6 +193,7 @@ static struct stmt *parse_declaration(struct parser *parser)
 {
     struct qualifiers seen = take_qualifiers(parser);
     struct variable model = {.read_only = seen.is_const};
+
     if (!expect_type(parser, &model.type) || !parse_length(parser, &model)) {
         return NULL;
     }
@@ -217,6 +227,7 @@ static bool starts_declaration(const struct parser *parser)
 static struct stmt *parse_block(struct parser *parser)
 {
     struct stmt *block = statement(parser, STMT_BLOCK), **last = &block->body;
+
     if (!parser_expect(parser, TOKEN_OPEN_BRACE, "before the statements") ||
         !parser_enter(parser)) {
         return NULL;
@@ -240,6 +251,7 @@ static struct stmt *parse_block(struct parser *parser)
 static struct stmt *parse_if(struct parser *parser)
 {
     struct stmt *stmt = statement(parser, STMT_IF);
+
     parser->token++;
     if (!parser_enter(parser) || !parser_expect(parser, TOKEN_OPEN, "after if") ||
         !(stmt->expr = parser_expression(parser)) ||
@@ -259,6 +271,7 @@ static struct stmt *parse_value_statement(struct parser *parser, enum token_kind
 {
     struct stmt *stmt = statement(parser, STMT_EXPR);
     const struct token *first = parser->token;
+
     if (first->kind == TOKEN_NAME && first[1].kind == TOKEN_NUMBER) { /* retrun 1.0; */
         unknown_word(parser, first);
         return NULL;
@@ -283,6 +296,7 @@ static struct stmt *parse_for_start(struct parser *parser)
 static struct stmt *parse_for(struct parser *parser)
 {
     struct stmt *stmt = statement(parser, STMT_FOR);
+
     parser->token++;
     if (!parser_enter(parser) || !parser_expect(parser, TOKEN_OPEN, "after for") ||
         !(stmt->other = parse_for_start(parser))) {
@@ -308,6 +322,7 @@ static struct stmt *parse_for(struct parser *parser)
 static struct stmt *parse_jump(struct parser *parser, enum stmt_kind kind, const char *where)
 {
     struct stmt *stmt = statement(parser, kind);
+
     parser->token++;
     if (kind == STMT_RETURN && parser->token->kind != TOKEN_SEMICOLON &&
         !(stmt->expr = parser_expression(parser))) {
@@ -369,6 +384,7 @@ static struct variable *parse_parameter(struct parser *parser)
 {
     struct variable model = {.direction = DIRECTION_IN};
     bool ends = false;
+
     while (!ends) {
         model.read_only |= take_qualifiers(parser).is_const;
         if (parser_take(parser, TOKEN_OUT)) {
@@ -401,6 +417,7 @@ static bool parse_parameters(struct parser *parser, struct function *function)
 {
     struct variable **last = &function->parameters;
     const struct token *token = parser->token;
+
     if (token->kind == TOKEN_TYPE && token->type.base == BASE_VOID &&
         token[1].kind == TOKEN_CLOSE) {
         parser->token++;
@@ -425,6 +442,7 @@ static struct stmt *parse_function(struct parser *parser, struct type result)
     struct stmt *stmt = statement(parser, STMT_FUNCTION);
     struct function *function = tree_alloc(parser->tree, sizeof *function);
     const struct token *token = parser->token;
+
     function->name = tree_name(parser->tree, token->text, token->length);
     function->at = token->at;
     function->result = result;
@@ -449,6 +467,7 @@ static struct stmt *parse_top(struct parser *parser)
 {
     struct qualifiers seen = take_qualifiers(parser);
     struct variable model = {.read_only = seen.is_const};
+
     if (!expect_type(parser, &model.type) || !parse_length(parser, &model)) {
         return NULL;
     }
@@ -467,6 +486,7 @@ static struct stmt *parse_top(struct parser *parser)
 static bool parse_precision(struct parser *parser)
 {
     struct type type;
+
     parser->token++;
     take_qualifiers(parser);
     return expect_type(parser, &type) &&
@@ -479,6 +499,7 @@ bool parser_read(struct tree *tree, const char *text)
     struct token *tokens = lexer_read(text, tree->whole, &bad);
     struct parser parser = {.tree = tree, .token = tokens, .bad = &bad};
     bool ok = true;
+
     parser.last_top = &tree->top;
     while (ok && parser.token->kind != TOKEN_END) {
         if (parser_take(&parser, TOKEN_SEMICOLON)) {

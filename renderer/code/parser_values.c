@@ -11,6 +11,7 @@ static struct expr *deepen(struct parser *parser, struct expr *expr)
 {
     const struct expr *below[] = {expr->a, expr->b, expr->c};
     int depth = 0;
+
     for (size_t i = 0; i < sizeof below / sizeof below[0]; i++) {
         depth = below[i] && below[i]->depth >= depth ? below[i]->depth + 1 : depth;
     }
@@ -34,6 +35,7 @@ static struct expr *node(struct parser *parser, enum expr_kind kind, struct at a
 static bool parse_arguments(struct parser *parser, struct expr *call, enum token_kind end)
 {
     struct expr **last = &call->args;
+
     if (!parser_enter(parser)) {
         return false;
     }
@@ -60,6 +62,7 @@ static struct expr *parse_literal(struct parser *parser, struct type type, doubl
 {
     struct expr *expr = node(parser, EXPR_LITERAL, parser->token->at);
     double *value = tree_alloc(parser->tree, sizeof *value);
+
     *value = number;
     expr->value = value;
     expr->type = type;
@@ -72,6 +75,7 @@ static struct expr *parse_name(struct parser *parser)
     const struct token *token = parser->token++;
     bool call = parser_take(parser, TOKEN_OPEN);
     struct expr *expr = node(parser, call ? EXPR_CALL : EXPR_VARIABLE, token->at);
+
     expr->name = tree_name(parser->tree, token->text, token->length);
     if (call && !parse_arguments(parser, expr, TOKEN_CLOSE)) {
         return NULL;
@@ -83,6 +87,7 @@ static struct expr *parse_name(struct parser *parser)
 static struct expr *parse_construct(struct parser *parser)
 {
     struct expr *expr = node(parser, EXPR_CONSTRUCT, parser->token->at);
+
     expr->type = parser->token->type;
     parser->token++;
     if (parser_take(parser, TOKEN_OPEN_BRACKET)) {
@@ -105,6 +110,7 @@ static struct expr *parse_construct(struct parser *parser)
 static struct expr *parse_cast(struct parser *parser)
 {
     struct expr *expr = node(parser, EXPR_CONSTRUCT, parser->token->at);
+
     expr->type = parser->token[1].type;
     parser->token += 3;
     if (!parser_enter(parser) || !(expr->args = parse_unary(parser))) {
@@ -118,6 +124,7 @@ static struct expr *parse_cast(struct parser *parser)
 static struct expr *parse_group(struct parser *parser)
 {
     struct expr *expr;
+
     if (parser->token[1].kind == TOKEN_TYPE && parser->token[2].kind == TOKEN_CLOSE) {
         return parse_cast(parser);
     }
@@ -133,6 +140,7 @@ static struct expr *parse_group(struct parser *parser)
 static struct expr *parse_list(struct parser *parser)
 {
     struct expr *expr = node(parser, EXPR_CONSTRUCT, parser->token->at);
+
     expr->list = true;
     parser->token++;
     return parse_arguments(parser, expr, TOKEN_CLOSE_BRACE) ? deepen(parser, expr) : NULL;
@@ -141,6 +149,7 @@ static struct expr *parse_list(struct parser *parser)
 static struct expr *parse_primary(struct parser *parser)
 {
     const struct token *token = parser->token;
+
     switch (token->kind) {
     case TOKEN_NUMBER:
         return parse_literal(parser, token->type, token->number);
@@ -164,6 +173,7 @@ static struct expr *parse_primary(struct parser *parser)
 static struct expr *parse_index(struct parser *parser, struct expr *of, struct at at)
 {
     struct expr *expr = node(parser, EXPR_INDEX, at);
+
     expr->a = of;
     if (!parser_enter(parser) || !(expr->b = parser_expression(parser))) {
         return NULL;
@@ -175,6 +185,7 @@ static struct expr *parse_index(struct parser *parser, struct expr *of, struct a
 static struct expr *parse_member(struct parser *parser, struct expr *of)
 {
     const struct token *token = parser->token;
+
     if (token->kind != TOKEN_NAME) {
         parser_unexpected(parser, "the name of a member after the .");
         return NULL;
@@ -194,6 +205,7 @@ static struct expr *parse_member(struct parser *parser, struct expr *of)
 static struct expr *parse_postfix(struct parser *parser)
 {
     struct expr *expr = parse_primary(parser);
+
     while (expr) {
         struct at at = parser->token->at;
         enum token_kind kind = parser->token->kind;
@@ -282,6 +294,7 @@ static int precedence(enum token_kind kind, enum op *out)
 static struct expr *parse_binary(struct parser *parser, int least)
 {
     struct expr *left = parse_unary(parser);
+
     while (left) {
         enum op op = OP_NONE;
         int binds = precedence(parser->token->kind, &op);
@@ -301,6 +314,7 @@ static struct expr *parse_binary(struct parser *parser, int least)
 static struct expr *parse_choice(struct parser *parser, struct expr *condition, struct at at)
 {
     struct expr *expr = node(parser, EXPR_CHOICE, at);
+
     expr->a = condition;
     if (!parser_enter(parser) || !(expr->b = parser_value(parser)) ||
         !parser_expect(parser, TOKEN_COLON, "between the two values of ?") ||
@@ -343,6 +357,7 @@ struct expr *parser_value(struct parser *parser)
     struct expr *left = parse_binary(parser, 1);
     struct at at = parser->token->at;
     enum op op = OP_NONE;
+
     if (left && parser_take(parser, TOKEN_QUESTION)) {
         return parse_choice(parser, left, at);
     }
@@ -363,6 +378,7 @@ struct expr *parser_value(struct parser *parser)
 struct expr *parser_expression(struct parser *parser)
 {
     struct expr *left = parser_value(parser);
+
     while (left && parser->token->kind == TOKEN_COMMA) {
         struct expr *expr = node(parser, EXPR_COMMA, parser->token->at);
         parser->token++;

@@ -7,6 +7,7 @@
 bool parser_is_word(const struct parser *parser, const char *word)
 {
     const struct token *token = parser->token;
+
     return token->kind == TOKEN_NAME && (size_t)token->length == strlen(word) &&
            memcmp(token->text, word, (size_t)token->length) == 0;
 }
@@ -33,6 +34,7 @@ static void make_type(const struct token *word, struct token *from, struct type 
 static struct variable *parse_members(struct parser *parser)
 {
     struct variable *members = NULL, **last = &members;
+
     if (!parser_expect(parser, TOKEN_OPEN_BRACE, "before the members")) {
         return NULL;
     }
@@ -56,6 +58,7 @@ static struct variable *parse_members(struct parser *parser)
 static struct type add_struct(struct tree *tree, const struct token *name, struct variable *members)
 {
     struct tree_struct *one = &tree->structs[tree->struct_count];
+
     one->name = tree_name(tree, name->text, name->length);
     one->members = members;
     return (struct type){BASE_STRUCT, (uint8_t)tree->struct_count++, 1, 0};
@@ -64,6 +67,7 @@ static struct type add_struct(struct tree *tree, const struct token *name, struc
 static bool parse_struct(struct parser *parser)
 {
     const struct token *name = ++parser->token;
+
     parser->token++;
     struct variable *members = parse_members(parser);
     if (!members || parser->tree->struct_count == TREE_STRUCTS) {
@@ -77,6 +81,7 @@ static bool parse_struct(struct parser *parser)
 static int parse_layout(struct parser *parser)
 {
     int binding = 0;
+
     while (!parser_take(parser, TOKEN_CLOSE)) {
         if (parser_is_word(parser, "binding")) {
             binding = (int)parser->token[2].number;
@@ -91,6 +96,7 @@ static bool parse_uniform(struct parser *parser, int binding)
 {
     const struct token *word = ++parser->token;
     struct type type = word->type;
+
     parser->token++;
     if (word->kind == TOKEN_NAME) {
         struct variable *members = parse_members(parser);
@@ -116,6 +122,7 @@ bool parser_whole_top(struct parser *parser, bool *ok)
     static const char sampler[] = "sampler2D";
     static const struct token word = {.text = sampler, .length = sizeof sampler - 1};
     int binding = 0;
+
     if (!parser->samplers_known) {
         parser->samplers_known = true;
         make_type(&word, parser->token + 1, (struct type){BASE_SAMPLER, 1, 1, 0});
@@ -138,6 +145,7 @@ bool parser_whole_top(struct parser *parser, bool *ok)
 struct stmt *parser_while(struct parser *parser)
 {
     struct stmt *stmt = tree_alloc(parser->tree, sizeof *stmt);
+
     stmt->kind = STMT_FOR;
     stmt->at = parser->token->at;
     stmt->other = tree_alloc(parser->tree, sizeof *stmt->other);

@@ -41,6 +41,7 @@ void pattern_fbm(double *out, const double *const in[], int n)
 {
     (void)n;
     int octaves = (int)fmin(fmax(in[1][0], 0), PATTERN_OCTAVES);
+
     out[0] = is_place(in[0]) ? noise_octaves(in[0], octaves, 0) : NAN;
 }
 
@@ -48,6 +49,7 @@ void pattern_hash(double *out, const double *const in[], int n)
 {
     uint32_t at[3] = {0};
     bool is = is_place(in[0]);
+
     for (int i = 0; i < n && is; i++) {
         at[i] = (uint32_t)wrap(floor(between_walls(in[0][i])), PERIOD);
     }
@@ -57,6 +59,7 @@ void pattern_hash(double *out, const double *const in[], int n)
 void pattern_checker(double *out, const double *const in[], int n)
 {
     double sum = 0;
+
     for (int i = 0; i < n; i++) {
         sum += floor(between_walls(in[0][i]));
     }
@@ -66,6 +69,7 @@ void pattern_checker(double *out, const double *const in[], int n)
 void pattern_triplanar(double *out, const double *const in[], int n)
 {
     double greatest = TINY, sum = 0;
+
     for (int i = 0; i < n; i++) {
         greatest = fmax(greatest, fabs(in[0][i]));
     }

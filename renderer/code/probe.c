@@ -21,6 +21,7 @@ static void point_of(const struct code_probe *probe, int index, double out[3])
 {
     const double root = 1.2207440846057596;
     double power = 1;
+
     for (int i = 0; i < 3; i++) {
         power /= root;
         out[i] = probe->low[i] + probe->size[i] * fmod(0.5 + (index + 1) * power, 1);
@@ -31,6 +32,7 @@ static void direction_of(int index, double out[3])
 {
     double z = 2 * fmod(index * 0.7548776662466927, 1) - 1;
     double turn = 2 * M_PI * fmod(index * 0.5698402909980532, 1), r = sqrt(1 - z * z);
+
     out[0] = r * cos(turn);
     out[1] = r * sin(turn);
     out[2] = z;
@@ -52,6 +54,7 @@ static bool refuse(const struct code_fault *fault, const double p[3], struct err
 static bool ask(const struct code_probe *probe, const double p[3], double *out, struct error *err)
 {
     struct code_fault fault;
+
     *out = code_distance(probe->code, p, probe->numbers, &fault);
     bool fine = fault.line == 0 || (fault.infinite && *out < CODE_FAR);
     return fine || refuse(&fault, p, err);
@@ -61,6 +64,7 @@ static bool ask(const struct code_probe *probe, const double p[3], double *out, 
 static void take_slope(struct code_probe *probe, double a, double b, double between)
 {
     double slope = fabs(a - b) / between;
+
     if (fmax(fabs(a), fabs(b)) < CODE_FAR && slope > probe->greatest) {
         probe->greatest = slope;
     }
@@ -110,6 +114,7 @@ static bool shade_at(const struct code *code, const struct code_shading *at, con
 {
     static const double magenta[4] = {1, 0, 1, 1};
     double color[4];
+
     if (code_gives_surface(code)) {
         struct code_surface surface;
         code_surface(code, at, n, &surface, fault);
@@ -124,6 +129,7 @@ static bool ask_shade(const struct code_probe *probe, const double p[3], int ind
 {
     struct code_shading at = {.ray_distance = 1 + index};
     struct code_fault fault;
+
     memcpy(at.world_position, p, sizeof at.world_position);
     memcpy(at.object_position, p, sizeof at.object_position);
     direction_of(index, at.world_normal);
@@ -137,6 +143,7 @@ void code_probe_begin(struct code_probe *out, const struct code *code, const dou
 {
     const double steps = 1e4, work = (double)code->tree.entry->work + 1;
     double size = 0, count = WORK_MAX / (RUNS_OF_POINT * work);
+
     *out = (struct code_probe){.code = code, .numbers = n, .lipschitz = lipschitz};
     for (int i = 0; i < 3; i++) {
         out->low[i] = low[i];
@@ -152,6 +159,7 @@ bool code_probe_ask(struct code_probe *probe, struct error *err)
     const bool shades = probe->code->use == CODE_SHADE;
     const int index = probe->asked++;
     double p[3];
+
     point_of(probe, index, p);
     if (!(shades ? ask_shade(probe, p, index, err) : ask_around(probe, p, index, err)) &&
         !probe->slopes_only) {

@@ -37,6 +37,7 @@ void *tree_alloc(struct tree *tree, size_t size)
 {
     const size_t align = _Alignof(max_align_t);
     struct tree_chunk *chunk = tree->chunks;
+
     size = (size + align - 1) / align * align;
     if (!chunk || chunk->size - chunk->used < size) {
         size_t bytes = size > CHUNK_BYTES ? size : CHUNK_BYTES;
@@ -53,6 +54,7 @@ void *tree_alloc(struct tree *tree, size_t size)
 struct name *tree_name(struct tree *tree, const char *text, int length)
 {
     uint32_t hash = 2166136261u; /* FNV-1a */
+
     for (int i = 0; i < length; i++) {
         hash = (hash ^ (unsigned char)text[i]) * 16777619u;
     }
@@ -74,6 +76,7 @@ struct name *tree_name(struct tree *tree, const char *text, int length)
 struct expr *tree_expr(struct tree *tree, enum expr_kind kind, struct at at)
 {
     struct expr *expr = tree_alloc(tree, sizeof *expr);
+
     expr->kind = kind;
     expr->at = at;
     return expr;
@@ -82,6 +85,7 @@ struct expr *tree_expr(struct tree *tree, enum expr_kind kind, struct at at)
 struct variable *tree_variable(struct tree *tree, struct name *name, struct type type, struct at at)
 {
     struct variable *variable = tree_alloc(tree, sizeof *variable);
+
     variable->name = name;
     variable->type = type;
     variable->at = at;
@@ -96,6 +100,7 @@ const char *tree_op_text(enum op op)
         TREE_OPS(X)
 #undef X
     };
+
     return texts[op];
 }
 
@@ -103,6 +108,7 @@ bool tree_fail(struct tree *tree, struct at at, const char *format, ...)
 {
     char text[sizeof tree->err->message];
     va_list args;
+
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);

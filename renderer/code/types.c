@@ -70,6 +70,7 @@ const char *type_name(struct type type, char out[TYPE_NAME_BYTES])
 {
     const char *name = "?";
     int count = type.count;
+
     type.count = 0;
     for (size_t i = NAMES; i-- > 0;) {
         if (type_equal(names[i].type, type)) {

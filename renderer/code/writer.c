@@ -24,6 +24,7 @@ static void begin_line(struct code_writer *w, struct at at)
 static void write_declared(struct code_writer *w, const struct variable *variable)
 {
     char name[TYPE_NAME_BYTES];
+
     PUT(w, "%s ", writer_type(variable->type, name));
     writer_variable(w, variable);
 }
@@ -31,6 +32,7 @@ static void write_declared(struct code_writer *w, const struct variable *variabl
 static void write_nothing(struct code_writer *w, struct type type)
 {
     static const double zeros[LIMIT_CODE_ARRAY * 16];
+
     PUT(w, " = ");
     writer_constant(w, type, type_is_surface(type) ? surface_defaults : zeros);
     PUT(w, ";");
@@ -79,6 +81,7 @@ static void write_for(struct code_writer *w, const struct stmt *stmt)
     const struct variable *variable = stmt->variable;
     char name[TYPE_NAME_BYTES];
     int n = variable->number;
+
     type_name(variable->type, name);
     begin_line(w, stmt->at);
     /* zero of glsl/frame.glsl: drivers write out loops from a constant on, and take long for it. */
@@ -164,6 +167,7 @@ static void write_parameters(struct code_writer *w, const struct function *funct
 {
     static const char *const directions[] = {"", "out ", "inout "};
     const char *before = "(";
+
     for (const struct variable *p = function->parameters; p; p = p->next) {
         if (!type_is_handle(p->type)) {
             PUT(w, "%s%s", before, directions[p->direction]);
@@ -177,6 +181,7 @@ static void write_parameters(struct code_writer *w, const struct function *funct
 static void write_function(struct code_writer *w, const struct function *function)
 {
     char name[TYPE_NAME_BYTES];
+
     begin_line(w, function->at);
     PUT(w, "%s %s_f%d", writer_type(function->result, name), w->name, function->number);
     write_parameters(w, function);
@@ -219,6 +224,7 @@ static void write_inputs(struct code_writer *w)
 {
     const struct tree *tree = w->tree;
     char name[TYPE_NAME_BYTES];
+
     for (const struct variable *v = tree->declared; v; v = v->next) {
         if (v->used) {
             /* A value, though it gets another: else drivers warn of each use. */
@@ -239,6 +245,7 @@ static void write_input(struct code_writer *w, const struct variable *v)
 {
     int n = v->number;
     char name[TYPE_NAME_BYTES];
+
     PUT(w, "%s_d%d = ", w->name, n);
     switch (v->type.base) {
     case BASE_INT:
@@ -256,6 +263,7 @@ static void write_data(struct code_writer *w)
 {
     const struct tree *tree = w->tree;
     int next = 0;
+
     for (const struct variable *v = tree->declared; v; v = v->next) {
         for (int i = 0; i < v->type.rows; i++) {
             PUT(w, "%s_data[%d] = a%d", w->name, next++, v->number);
@@ -271,6 +279,7 @@ static void write_entry(struct code_writer *w, enum code_use use)
 {
     const struct tree *tree = w->tree;
     bool shade = use == CODE_SHADE, surface = shade && type_is_surface(tree->entry->result);
+
     PUT(w, "%s %s(%s",
         surface ? "CodeSurface"
         : shade ? "vec4"
@@ -308,6 +317,7 @@ void writer_write(const struct tree *tree, enum code_use use, const char *name, 
                   FILE *out)
 {
     struct code_writer w = {.out = out, .tree = tree, .name = name, .source = source_number};
+
     write_inputs(&w);
     write_globals(&w);
     for (const struct function *f = tree->called; f; f = f->next_called) {

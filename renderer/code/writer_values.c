@@ -13,6 +13,7 @@
 static void write_float(struct code_writer *w, double number)
 {
     char text[40];
+
     snprintf(text, sizeof text, "%.9g", number);
     bool whole = strspn(text, "-0123456789") == strlen(text);
     PUT(w, number < 0 || signbit(number) ? "(%s%s)" : "%s%s", text, whole ? ".0" : "");
@@ -58,6 +59,7 @@ void writer_constant(struct code_writer *w, struct type type, const double *valu
 {
     char name[TYPE_NAME_BYTES];
     int count = type_components(type);
+
     if (type_is_surface(type)) {
         PUT(w, "CodeSurface(");
         write_members(w, 0, value);
@@ -83,12 +85,14 @@ void writer_constant(struct code_writer *w, struct type type, const double *valu
 void writer_variable(struct code_writer *w, const struct variable *variable)
 {
     bool declared = variable->storage == STORAGE_DECLARED;
+
     PUT(w, "%s_%c%d", w->name, declared ? 'd' : 'v', variable->number);
 }
 
 static void write_value(struct code_writer *w, const struct expr *expr)
 {
     bool named = expr->kind == EXPR_VARIABLE && type_components(expr->type) > 1;
+
     if (named) {
         writer_variable(w, expr->variable);
     } else {
@@ -99,6 +103,7 @@ static void write_value(struct code_writer *w, const struct expr *expr)
 static void write_arguments(struct code_writer *w, const struct expr *args)
 {
     const char *before = "(";
+
     for (; args; args = args->next) {
         if (!type_is_handle(args->type)) {
             PUT(w, "%s", before);
@@ -113,6 +118,7 @@ static void write_arguments(struct code_writer *w, const struct expr *args)
 static void write_divisor(struct code_writer *w, const struct expr *expr)
 {
     bool guarded = !expr->value && !type_is_matrix(expr->type);
+
     PUT(w, guarded ? "code_nonzero(" : "");
     writer_expr(w, expr);
     PUT(w, guarded ? ")" : "");
@@ -124,6 +130,7 @@ static bool write_guarded(struct code_writer *w, const struct expr *expr)
     const char *mask = expr->b->type.base == BASE_UINT ? "31u" : "31";
     bool shifts = expr->op == OP_SHIFT_LEFT || expr->op == OP_SHIFT_RIGHT;
     bool divides = expr->op == OP_DIVIDE || expr->op == OP_REMAINDER;
+
     if (!type_is_integer(expr->type) || !(shifts || divides)) {
         return false;
     }
@@ -157,6 +164,7 @@ static void write_assign(struct code_writer *w, const struct expr *expr)
     bool guarded = whole && (expr->op == OP_DIVIDE || expr->op == OP_REMAINDER ||
                              expr->op == OP_SHIFT_LEFT || expr->op == OP_SHIFT_RIGHT);
     char op[4];
+
     if (guarded) { /* the place has no effects of its own, so it can stand twice */
         PUT(w, "(");
         writer_expr(w, expr->a);
@@ -173,6 +181,7 @@ static void write_assign(struct code_writer *w, const struct expr *expr)
 static void write_swizzle(struct code_writer *w, const struct expr *expr)
 {
     char name[TYPE_NAME_BYTES];
+
     if (type_is_scalar(expr->a->type)) {
         bool spread = expr->swizzle_count > 1;
         PUT(w, "%s(", spread ? type_name(expr->type, name) : "");
@@ -190,6 +199,7 @@ static void write_swizzle(struct code_writer *w, const struct expr *expr)
 static void write_index(struct code_writer *w, const struct expr *expr)
 {
     const char *suffix = expr->b->type.base == BASE_UINT ? "u" : "";
+
     writer_expr(w, expr->a);
     if (expr->b->value) {
         PUT(w, "[%.0f]", *expr->b->value);
@@ -205,6 +215,7 @@ static void write_construct(struct code_writer *w, const struct expr *expr)
 {
     char name[TYPE_NAME_BYTES];
     bool whole = type_is_integer(expr->type);
+
     PUT(w, "%s(", writer_type(expr->type, name));
     for (const struct expr *arg = expr->args; arg; arg = arg->next) {
         bool guarded = whole && arg->type.base == BASE_FLOAT;
@@ -221,6 +232,7 @@ static void write_construct(struct code_writer *w, const struct expr *expr)
 static void write_builtin(struct code_writer *w, const struct expr *expr)
 {
     const char *text = expr->builtin->glsl ? expr->builtin->glsl : expr->builtin->name;
+
     if (!strchr(text, '$')) {
         PUT(w, "%s", text);
         write_arguments(w, expr->args);

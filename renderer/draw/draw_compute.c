@@ -91,6 +91,7 @@ static struct wavefront make_wavefront(const struct draw *draw, struct draw_pict
                                        const struct draw_scene *scene, int index)
 {
     struct tile_in_flight *slot = &picture->slots[index];
+
     return (struct wavefront){
         .gl = draw->gl,
         .software = draw->software,

@@ -65,6 +65,7 @@ static void (*const light_packers[LIGHT_KIND_COUNT])(struct frame_light *light,
 static struct frame_light make_light(const struct record *record)
 {
     struct frame_light light = {.kind = (int32_t)(record->type - light_types)};
+
     /* One that gives no light is black and casts no shadow: numbers, so nothing is compiled. */
     const bool lit = record_number(record, "visible") != 0;
 

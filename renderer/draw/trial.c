@@ -11,6 +11,7 @@ static struct trial *queue(struct trials *trials, struct field_trial *asks, bool
 {
     struct trial **last = &trials->first;
     struct trial *trial = memory_alloc(1, sizeof *trial);
+
     trial->references = 1;
     trial->late = late;
     trial->asks = asks;

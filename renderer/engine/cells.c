@@ -42,6 +42,7 @@ static void tape_room(struct cells *cells, size_t count)
 static uint32_t drops_add(struct cells *cells, size_t count)
 {
     const size_t at = cells->drops_used;
+
     if (cells->drops_room - at < count) {
         cells->drops_room = 2 * (cells->drops_room + count);
         cells->drops = memory_resize(cells->drops, cells->drops_room, sizeof *cells->drops);
@@ -57,6 +58,7 @@ static float root_half(const struct frame_uniforms *frame)
 {
     float reach = frame->max_distance;
     int exponent;
+
     for (int i = 0; i < 3; i++) {
         reach = f_max(reach, 2.0f * fabsf(frame->camera.eye[i]));
     }
@@ -67,6 +69,7 @@ static float root_half(const struct frame_uniforms *frame)
 static void cells_begin(struct lanes *c)
 {
     struct cells *cells = c->cells;
+
     if (cells->count) {
         return; /* the picture's other tiles made them */
     }
@@ -93,6 +96,7 @@ static void cells_begin(struct lanes *c)
 static void cells_limit(struct lanes *c)
 {
     struct cells *cells = c->cells;
+
     if (cells->count > CELL_LIMIT || cells->used > TAPES_LIMIT / (size_t)c->threads) {
         cells->count = 0;
         cells_begin(c);
@@ -103,6 +107,7 @@ static void cells_limit(struct lanes *c)
 static vb cell_lanes(const struct cell *cell, vb m, const vf *p)
 {
     const float reach = LOOSE * cell->half;
+
     return m & (vf_abs(p[0] - cell->centre[0]) <= reach) &
            (vf_abs(p[1] - cell->centre[1]) <= reach) & (vf_abs(p[2] - cell->centre[2]) <= reach);
 }
@@ -116,6 +121,7 @@ struct spots {
 static struct spots spots_of(const struct cells *cells, const vf *p)
 {
     struct spots s = {.in = vb_all(true)};
+
     for (int i = 0; i < 3; i++) {
         const vf at = vf_floor(p[i] * cells->grid) + (float)GRID_ORIGIN;
         const vb in = (at >= 0.0f) & (at < (float)(1 << GRID_BITS));
@@ -130,6 +136,7 @@ static vb cell_holds(const struct cell *cell, vb m, const struct spots *s)
 {
     const vi apart =
         (s->at[0] ^ cell->corner[0]) | (s->at[1] ^ cell->corner[1]) | (s->at[2] ^ cell->corner[2]);
+
     return m & s->in & (apart < 1 << cell->bits);
 }
 
@@ -137,6 +144,7 @@ static bool cell_has(const struct cell *cell, const struct spots *s, int lane)
 {
     const int apart = (s->at[0][lane] ^ cell->corner[0]) | (s->at[1][lane] ^ cell->corner[1]) |
                       (s->at[2][lane] ^ cell->corner[2]);
+
     return apart < 1 << cell->bits;
 }
 
@@ -146,6 +154,7 @@ static void make_tape(struct lanes *c, const struct cell *parent, int number, st
     struct cells *cells = c->cells;
     const struct operation *operations = c->program->operations;
     bool distance[FIELD_SLOTS_MAX] = {true}, point[FIELD_SLOTS_MAX] = {false};
+
     child->made = true;
     if (!(parent->dropping >> number & 0x101)) {
         return; /* it has its parent's */
@@ -221,6 +230,7 @@ static void cell_split(struct lanes *c, int32_t index, float mask)
     const struct cell parent = c->cells->at[index];
     const float half = 0.5f * parent.half;
     const uint8_t bits = parent.bits - 1;
+
     c->cells->at[index].children = children;
     c->cells->at[index].drops = drops_add(c->cells, parent.count);
     for (int k = 0; k < 8; k++) {
@@ -262,6 +272,7 @@ static void cell_split(struct lanes *c, int32_t index, float mask)
 static bool is_worth_splitting(const struct lanes *c, const struct cell *cell)
 {
     float square = 0;
+
     if (cell->count <= CELL_SHORT || cell->bits == 0) {
         return false;
     }
@@ -279,6 +290,7 @@ static bool is_worth_splitting(const struct lanes *c, const struct cell *cell)
 static struct cell *cell_ready(struct lanes *c, int32_t at)
 {
     struct cell *cell = &c->cells->at[at];
+
     if (!cell->made) {
         const struct cell *parent = &c->cells->at[cell->parent];
         make_tape(c, parent, (int)(at - parent->children), cell);
@@ -298,6 +310,7 @@ static bool has_smaller(const struct cell *cell)
 static void use(struct cells *cells, int32_t at)
 {
     struct cell *cell = &cells->at[at];
+
     if (has_smaller(cell) || cell->count < WORN_TAPE || cell->bits == 0 ||
         ++cell->uses < WORN_USES) {
         return;
@@ -322,6 +335,7 @@ static int32_t child_at(struct lanes *c, int32_t at, const struct spots *s, int 
 static int32_t cell_around(const struct cells *cells, const struct spots *s, int lane)
 {
     int32_t at = s->in[lane] ? cells->last : 0;
+
     while (at > 0 && !cell_has(&cells->at[at], s, lane)) {
         at = cells->at[at].parent;
     }
@@ -380,6 +394,7 @@ static bool cell_bounds(const struct cells *cells, const struct cell *cell)
 static vf cell_bound(const struct cell *cell, const vf *p)
 {
     vf square = vf_zero;
+
     for (int i = 0; i < 3; i++) {
         const vf way = p[i] - cell->centre[i];
         square += way * way;
@@ -394,6 +409,7 @@ static const struct cell *bound_at(struct lanes *c, const struct spots *s, int l
 {
     struct cells *cells = c->cells;
     int32_t at = cell_around(cells, s, lane);
+
     while (at > 0 && !cells->at[cells->at[at].parent].splits) {
         at = cells->at[at].parent;
     }

@@ -56,6 +56,7 @@ static void find_nearest(struct walk *w)
 static void go_on(struct walk *w)
 {
     const int where = w->nearest;
+
     w->m = w->waiting == where;
     w->waiting = vi_select(w->m, vi_all(NOT_WAITING), w->waiting);
     w->apart = lanes_any(w->started & ~w->m);
@@ -123,6 +124,7 @@ static void put_product(const struct walk *w, const struct step *s, vf *to, cons
 {
     vf out[PARTS_MAX];
     const int rows = s->n, inner = s->c, columns = s->extra;
+
     for (int column = 0; column < columns; column++) {
         for (int row = 0; row < rows; row++) {
             vf sum = a[row] * b[column * inner];
@@ -142,6 +144,7 @@ static void put_together(const struct walk *w, const struct step *s)
     const vf *const y = s->b == MACHINE_NOWHERE ? x : w->frame + s->b;
     const vf *const z = s->c == MACHINE_NOWHERE ? x : w->frame + s->c;
     vf out[PARTS_MAX];
+
     if (call->gives_one) {
         put(w, w->frame + s->out, CALL(one_function, call->function)(w->c, w->m, x, y, z));
         return;
@@ -169,6 +172,7 @@ static vf compare(enum base base, bool or_equal, vf a, vf b)
 static vf all_equal(const struct step *s, const vf *a, const vf *b)
 {
     vb same = vb_all(true);
+
     for (int i = 0; i < s->n; i++) {
         same &= s->base == BASE_FLOAT ? a[i] == b[i] : (vi)a[i] == (vi)b[i];
     }
@@ -179,6 +183,7 @@ static vf whole(const struct step *s, vf x, vf y)
 {
     const vu a = (vu)x, b = (vu)y;
     vu out = vu_zero;
+
     switch ((enum op)s->extra) {
     case OP_ADD:
         return (vf)(a + b);
@@ -235,6 +240,7 @@ static vi index_of(const struct step *s, vf a)
 {
     const vi at = s->base == BASE_UINT ? (vi)vu_min((vu)a, vu_all(s->c - 1u))
                                        : vi_clamp((vi)a, vi_zero, vi_all(s->c - 1));
+
     return at * s->n;
 }
 
@@ -263,6 +269,7 @@ static void compute_call(const struct walk *w, const struct step *s)
     const vf *c = s->kind == STEP_THREE ? w->frame + s->c : a;
     const int step_a = !(s->flags & SPREAD_A), step_b = !(s->flags & SPREAD_B);
     const int step_c = s->kind == STEP_THREE ? !(s->flags & SPREAD_C) : step_a;
+
     switch (call->direct) {
     case CALL_MIN:
         PUT_EACH(vf_min(A, B))
@@ -286,6 +293,7 @@ static void move(const struct walk *w, const struct step *s)
 {
     vf *const out = w->frame + s->out, copy[4];
     const vf *const a = w->frame + s->a, *const b = w->frame + s->b;
+
     switch ((enum step_kind)s->kind) {
     case STEP_MOVE:
         put_all(w, out, a, s->n, !(s->flags & SPREAD_A));
@@ -315,6 +323,7 @@ static void compute(const struct walk *w, const struct step *s)
     vf *const out = w->frame + s->out;
     const vf *const a = w->frame + s->a, *const b = w->frame + s->b;
     const int step_a = !(s->flags & SPREAD_A), step_b = !(s->flags & SPREAD_B);
+
     switch ((enum step_kind)s->kind) {
     case STEP_ADD:
         EACH(A + B);
@@ -365,6 +374,7 @@ static void take_step(struct walk *w)
 {
     const struct step *s = &w->code->machine->steps[w->at];
     vf *const counter = w->frame + s->a;
+
     switch ((enum step_kind)s->kind) {
     case STEP_JUMP:
         w->at = s->out;
@@ -401,6 +411,7 @@ static void walk(struct lanes *c, vb m, const struct engine_code *code, vf *fram
                      .at = (int)code->machine->entry,
                      .waiting = vi_all(NOT_WAITING),
                      .nearest = NOT_WAITING};
+
     for (;;) {
         const struct step *s = &code->machine->steps[w.at];
         if (!w.apart && s->kind < STEP_JUMP) { /* nobody waits, and nobody leaves */
@@ -455,6 +466,7 @@ static vf *frame_of(struct lanes *c, const struct engine_code *code)
 {
     const struct machine_code *machine = code->machine;
     vf **const at = &c->frames[code - c->program->codes];
+
     if (!*at) {
         const size_t count = machine_frame_size(machine) + PARTS_MAX;
         *at = aligned_alloc(sizeof(vf), count * sizeof(vf));
@@ -505,6 +517,7 @@ static vf run_code(struct lanes *c, vb m, const struct engine_code *code, const 
     const struct machine_code *machine = code->machine;
     vf *const frame = frame_of(c, code);
     vf point[3];
+
     spmd_kernel_code_point(c, m, p, point);
     memcpy(frame + machine->point, point, sizeof point);
     for (int i = 0; i < machine->number_count; i++) {
@@ -520,6 +533,7 @@ static void shade(struct lanes *c, vb m, const struct engine_code *code, vi mate
 {
     const struct machine_code *machine = code->machine;
     vf *const frame = frame_of(c, code);
+
     if (machine->shading != MACHINE_NOWHERE) {
         memcpy(frame + machine->shading, at, SPMD_Shading * sizeof *at);
     }
@@ -542,6 +556,7 @@ static vi spmd_ask_shader(struct lanes *c, vb m, vi shader, vi material, const v
                           vf *surface)
 {
     vi says = vi_zero;
+
     while (lanes_any(m)) {
         const int asked = shader[lanes_first(m)];
         const vb same = m & (shader == asked);

@@ -22,6 +22,7 @@ int engine_map_side(int side, int level)
 static int levels_of(int width)
 {
     int levels = 1;
+
     for (int side = width; side > 1; side /= 2) {
         levels++;
     }
@@ -51,6 +52,7 @@ static struct pair pair_of(int at, int from, int to)
 {
     const float place = ((float)at + 0.5f) * (float)from / (float)to - 0.5f;
     const int first = (int)floorf(place);
+
     return (struct pair){first > 0 ? first : 0, first + 1 < from ? first + 1 : from - 1,
                          place - (float)first};
 }
@@ -58,6 +60,7 @@ static struct pair pair_of(int at, int from, int to)
 static float between(uint16_t first, uint16_t second, float part)
 {
     const float value = half_value(first);
+
     return value + part * (half_value(second) - value);
 }
 
@@ -69,6 +72,7 @@ static void shrink(struct engine_map *map, int level)
     const int height = engine_map_side(map->height, level);
     const uint16_t *from = map->texels[level - 1];
     uint16_t *to = map->texels[level];
+
     for (int y = 0; y < height; y++) {
         const struct pair rows = pair_of(y, from_height, height);
         const uint16_t *const above = from + (size_t)4 * (size_t)rows.first * (size_t)from_width;
@@ -89,6 +93,7 @@ void engine_maps_make(const struct frame_uniforms *frame, uint16_t *halves, int 
                       struct engine_map out[ENGINE_MAPS])
 {
     const struct engine_width *lanes = engine_widest();
+
     if (!halves) {
         width = PLAIN_WIDTH;
         height = PLAIN_WIDTH / 2;

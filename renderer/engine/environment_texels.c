@@ -22,6 +22,7 @@ static void make_level(struct lanes *c, struct engine_map *map, int level, map_t
     const int height = engine_map_side(map->height, level);
     const vf size[2] = {(vf)vi_all(width), (vf)vi_all(height)};
     uint16_t *to = map->texels[level];
+
     for (int first = 0; first < width * height; first += LANES) {
         const vi at = first + lanes_number;
         const vf here[2] = {(vf)(at % width), (vf)(at / width)};
@@ -43,5 +44,6 @@ static void make_map(const struct frame_uniforms *frame, struct engine_map maps[
     static const struct dispatch_block no_dispatch;
     const struct engine_map *const all[ENGINE_MAPS] = {&maps[0], &maps[1], &maps[2]};
     struct lanes c = {.frame = frame, .dispatch = &no_dispatch, .maps = all};
+
     make_level(&c, &maps[number], level, texels[number]);
 }

@@ -49,6 +49,7 @@ struct machine {
 static void *aligned_room(size_t bytes)
 {
     void *room = aligned_alloc(64, (bytes + 63) / 64 * 64);
+
     if (!room) {
         abort();
     }
@@ -91,6 +92,7 @@ static void run_shape(struct machine *v, const struct operation *in)
     const struct operation_kind *kind = kind_of(v, in);
     const float *head = c->own + 4 * FIELD_MATRIX_VEC4S;
     const vf *const p = v->p[in->point];
+
     v->d[in->a] = kind->code ? run_code(c, v->m, kind->code, p)
                              : CALL(shape_function, kind->function)(c, v->m, p);
     if (v->drops) {
@@ -113,6 +115,7 @@ static void run_combine(struct machine *v, const struct operation *in)
     const vf d = side == 0.0f  ? CALL(combine_function, kind->function)(c, v->m, a, b)
                  : side > 0.0f ? b
                                : a;
+
     v->d[in->a] = d;
     if (v->mixtures) {
         vf *const ma = v->mixtures[in->a], *const mb = v->mixtures[in->b], out[MIXTURE];
@@ -133,6 +136,7 @@ static void run_combine(struct machine *v, const struct operation *in)
 static void record(struct machine *v, const struct operation *in, size_t at)
 {
     const vf loose[2] = {v->loose[in->a], v->loose[in->b]};
+
     v->loose[in->a] = vf_max(loose[0], loose[1]);
     if (!in->prunes) {
         return;
@@ -168,6 +172,7 @@ static size_t run_loop(struct machine *v, const struct operation *in, size_t at)
     struct lanes *c = v->c;
     const struct operation_kind *kind = kind_of(v, in);
     struct open *open = &v->open[v->depth++];
+
     CALL(map_function, kind->function)(c, v->m, v->p[in->point], open->first);
     CALL(map_function, kind->share)(c, v->m, v->p[in->point], open->last);
     memcpy(open->cell, open->first, sizeof open->cell);
@@ -194,6 +199,7 @@ static size_t run_loop_end(struct machine *v, const struct operation *in, size_t
     struct open *open = &v->open[v->depth - 1];
     const vb nearer = v->m & (v->d[in->b] < v->d[in->a]);
     vf next[3];
+
     v->d[in->a] = vf_select(nearer, v->d[in->b], v->d[in->a]);
     if (v->mixtures) {
         select_all(nearer, v->mixtures[in->b], v->mixtures[in->a], MIXTURE);
@@ -218,6 +224,7 @@ static size_t run_loop_end(struct machine *v, const struct operation *in, size_t
 static void run_move(struct machine *v, const struct operation *in, bool negated)
 {
     const vf d = v->d[in->b];
+
     v->d[in->a] = negated ? -d : d;
     v->loose[in->a] = v->drops ? v->loose[in->b] : vf_zero;
     if (v->mixtures) {
@@ -230,6 +237,7 @@ static void run(struct machine *v, const uint32_t *tape, size_t count)
 {
     struct lanes *c = v->c;
     const struct engine_program *program = c->program;
+
     for (size_t i = 0; i < count;) {
         const uint32_t word = tape[i];
         const struct operation *in = &program->operations[word & TAPE_INDEX];
@@ -302,6 +310,7 @@ static vf spmd_map(struct lanes *c, vb m, const vf *p)
 {
     struct machine *const v = c->machine;
     vf d = vf_zero;
+
     while (lanes_any(m)) {
         vb held;
         const struct cell *cell = cell_at(c, m, p, lanes_first(m), &held);
@@ -326,6 +335,7 @@ static vf turn(struct lanes *c, vb m, const vf *p, vf distance, vf d)
     struct machine *const v = c->machine;
     vb held;
     const struct cell *cell = cell_at(c, m, p, nearest_lane(m, distance), &held);
+
     run(machine_of(v, c, held, p), c->cells->tapes + cell->tape, cell->count);
     return vf_select(held, v->d[0], d);
 }
@@ -333,6 +343,7 @@ static vf turn(struct lanes *c, vb m, const vf *p, vf distance, vf d)
 static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, vf distance, bool exact)
 {
     vf d = vf_all(WAITING);
+
     if (c->program->count <= BOUND_TAPE) {
         return spmd_map(c, m, p);
     }
@@ -363,6 +374,7 @@ static void spmd_surface(struct lanes *c, vb m, const vf *p, const vf *at, vf *o
     struct machine *const v = c->machine;
     vf whole[MIXTURE] = {0};
     vb left = m;
+
     while (lanes_any(left)) {
         vb held;
         const struct cell *cell = cell_at(c, left, p, lanes_first(left), &held);

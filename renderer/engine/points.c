@@ -14,6 +14,7 @@ struct looker {
 static struct looker *looker_create(const struct engine_program *program, const float *params)
 {
     struct looker *looker = aligned_room(sizeof *looker);
+
     memset(looker, 0, sizeof *looker);
     looker->scene =
         (struct scene_block){program->scene.material_base, program->scene.material_stride};
@@ -44,6 +45,7 @@ static void looker_destroy(struct looker *looker)
 static int32_t cube_at(struct lanes *c, const struct spots *s, int lane, float half)
 {
     int32_t at = 0;
+
     cells_limit(c);
     while (s->in[lane] && c->cells->at[at].half > half && c->cells->at[at].bits > 0) {
         at = child_at(c, at, s, lane);
@@ -58,6 +60,7 @@ static uint64_t look(struct lanes *c, const vf *p, float half, vf *out)
     const struct spots spots = spots_of(c->cells, p);
     vb m = vb_all(true);
     uint64_t ran = 0;
+
     while (lanes_any(m)) {
         const int32_t at = cube_at(c, &spots, lanes_first(m), half);
         const struct cell *cell = &c->cells->at[at];
@@ -75,6 +78,7 @@ static uint64_t distances(const struct engine_program *program, const float *par
 {
     struct looker *looker = looker_create(program, params);
     uint64_t ran = 0;
+
     for (size_t first = 0; first < count; first += LANES) {
         vf p[3], d = vf_zero;
         for (int lane = 0; lane < LANES; lane++) {

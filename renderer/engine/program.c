@@ -32,12 +32,14 @@ const struct engine_width *engine_widest(void)
 int engine_lanes(size_t index)
 {
     const struct engine_width *width = width_at(index);
+
     return width ? width->lanes : 0;
 }
 
 static const struct engine_width *width_of(int lanes)
 {
     const struct engine_width *width = width_at(0);
+
     for (size_t i = 0; lanes > 0 && width && width->lanes != lanes; i++) {
         width = width_at(i);
     }
@@ -89,6 +91,7 @@ static bool make_kind(const struct engine_program *program, struct operation_kin
 {
     const struct engine_width *width = program->width;
     enum shader_kernel kernel;
+
     *out = (struct operation_kind){.op = (uint8_t)in->op, .choices = in->choices, .type = in->type};
     if (in->op == FIELD_SHAPE && !in->sdf) {
         out->code = &program->codes[in->choices];
@@ -110,6 +113,7 @@ static bool make_kind(const struct engine_program *program, struct operation_kin
 static size_t find_kind(const struct engine_program *program, const struct field_instruction *in)
 {
     size_t i = 0;
+
     while (i < program->kind_count &&
            !(program->kinds[i].op == in->op && program->kinds[i].choices == in->choices &&
              program->kinds[i].type == in->type)) {
@@ -122,6 +126,7 @@ static bool make(struct engine_program *program, struct operation *out,
                  const struct field_instruction *in)
 {
     const size_t kind = find_kind(program, in);
+
     if (kind == program->kind_count) {
         if (kind == program->kind_room) {
             program->kind_room = 2 * kind + 16;
@@ -161,6 +166,7 @@ static bool read_one(struct engine_program *program, struct reading *r,
     const uint32_t at = (uint32_t)program->count;
     struct operation *to = &program->operations[at];
     const bool bends = in->type && in->type->kind == KIND_DOMAIN && in->type->lipschitz == 0;
+
     if (in->op == FIELD_GUARD || in->op == FIELD_GUARD_END) {
         return true;
     }
@@ -226,6 +232,7 @@ static bool make_code(const struct engine_width *width, struct engine_code *out,
 {
     const struct machine_code *machine = code_steps(code->code);
     int count = 0;
+
     out->machine = machine;
     out->whole = code_gives_surface(code->code);
     out->calls = memory_alloc(machine->step_count, sizeof *out->calls);
@@ -253,6 +260,7 @@ static bool make_codes(struct engine_program *program)
 {
     const struct field *field = program->field;
     bool ok = true;
+
     program->distances = field->code_count;
     program->code_count = field->code_count + field->shader_count;
     program->codes = memory_alloc(program->code_count, sizeof *program->codes);

@@ -17,6 +17,7 @@ enum { SPARSE_GROUP = 4 * SPARSE_STEP };
 static bool light_differs(const vf seen[4], int a, int b)
 {
     float difference = 0;
+
     for (int k = 0; k < 4; k++) {
         difference = f_max(difference, fabsf(seen[k][a] - seen[k][b]));
     }
@@ -38,6 +39,7 @@ static bool is_hit(const float *geometry)
 static bool shape_differs(const float *a, const float *b)
 {
     const float near = f_min(fabsf(a[3]), fabsf(b[3])), far = f_max(fabsf(a[3]), fabsf(b[3]));
+
     return (is_hit(a) || is_hit(b)) && (dot_normals(a, b) < TURN_LEAST || far > near * DEPTH_MOST);
 }
 
@@ -47,6 +49,7 @@ static bool is_even(struct hand *hand, const int corners[4])
     static const int pairs[][2] = {{0, 3}, {1, 2}, {0, 1}};
     vi at = vi_zero;
     vf seen[4];
+
     for (int i = 0; i < 4; i++) {
         at[i] = corners[i];
     }
@@ -87,6 +90,7 @@ static void draw_block(struct hand *hand, int left, int top)
 {
     const struct engine_rect inner = hand->inner;
     const int margin = hand->canvas->picture.margin;
+
     for (int i = 0; i < SPARSE_STEP * SPARSE_STEP; i += LANES) {
         const vi at = i + lanes_number;
         const vi x = left + at % SPARSE_STEP, y = top + at / SPARSE_STEP;
@@ -102,6 +106,7 @@ static void draw_block(struct hand *hand, int left, int top)
 static void interpolate(float *values, int count, int to, const int corners[4], int x, int y)
 {
     const float right = (float)x / SPARSE_STEP, down = (float)y / SPARSE_STEP;
+
     for (int k = 0; k < count; k++) {
         const float a = values[count * corners[0] + k], b = values[count * corners[1] + k];
         const float c = values[count * corners[2] + k], d = values[count * corners[3] + k];
@@ -114,6 +119,7 @@ static void interpolate(float *values, int count, int to, const int corners[4], 
 static void fill_block(struct hand *hand, const int corners[4])
 {
     bool all_hit = true;
+
     for (int i = 0; i < 4; i++) {
         all_hit = all_hit && is_hit(hand->geometry + 4 * corners[i]);
     }

@@ -23,6 +23,7 @@ static vi around(vi x, int n)
 static void texels(const uint16_t *from, int width, int height, vb m, vi x, vi y, vf out[4])
 {
     const vi at = 2 * (within(y, height) * width + around(x, width));
+
     for (int k = 0; k < 4; k += 2) {
         const vu two = (vu)lanes_gather(from + k, at, m);
         out[k] = (vf)((two & 0xffffu) << 13) * 0x1p112f; /* as half_value() does */
@@ -44,6 +45,7 @@ static void sample_level(const struct engine_map *map, int level, vb m, vf u, vf
     const vf left = vf_floor(x), top = vf_floor(y), s = x - left, t = y - top;
     const vi column = vi_of_f(left), row = vi_of_f(top);
     vf above[2][4], below[2][4];
+
     for (int i = 0; i < 2; i++) {
         texels(from, width, height, m, column + i, row, above[i]);
         texels(from, width, height, m, column + i, row + 1, below[i]);
@@ -61,6 +63,7 @@ static const struct engine_map *sky_of(const struct lanes *c, int unit)
 static void lanes_texture(struct lanes *c, int unit, vb m, vf u, vf v, vf level, vf out[4])
 {
     const struct engine_map *map = sky_of(c, unit);
+
     /* What is no number is the first level. */
     const vf at = vf_min(vf_max(vf_zero, level), vf_all((float)(map->levels - 1)));
     const vi first = vi_of_f(at);
@@ -98,6 +101,7 @@ static void lanes_texel(struct lanes *c, int unit, vb m, vi x, vi y, vi level, v
                                               : c->tile.counted;
     const int width = unit == UNIT_COUNTED ? 2 : 4;
     (void)level;
+
     for (int k = 0; k < 4; k++) {
         out[k] = k < width ? lanes_gather(from, (y * c->tile.side + x) * width + k, m) : vf_zero;
     }

@@ -21,6 +21,7 @@ static struct hand *hand_create(struct crew *crew)
 {
     const struct engine_picture *picture = &crew->canvas->picture;
     struct hand *hand = aligned_room(sizeof *hand);
+
     memset(hand, 0, sizeof *hand);
     hand->canvas = crew->canvas;
     hand->work = crew->work;
@@ -63,6 +64,7 @@ static void *take_tiles(void *argument)
     struct crew *crew = argument;
     const struct engine_rect tile = crew->work->tile;
     struct hand *hand = hand_create(crew);
+
     for (int i = atomic_fetch_add(&crew->next_tile, 1); i < crew->count;
          i = atomic_fetch_add(&crew->next_tile, 1)) {
         const int x = i % crew->across * crew->side, y = i / crew->across * crew->side;
@@ -78,6 +80,7 @@ static void *take_tiles(void *argument)
 static void divide(struct crew *crew)
 {
     const struct engine_rect tile = crew->work->tile;
+
     crew->side = 2 * TILE;
     do {
         crew->side /= 2;
@@ -89,6 +92,7 @@ static void divide(struct crew *crew)
 static void *help(void *argument)
 {
     struct crew *crew = argument;
+
     sched_setaffinity(0, sizeof crew->anywhere, &crew->anywhere);
     return take_tiles(crew);
 }
@@ -115,6 +119,7 @@ static int start_helpers(struct crew *crew, pthread_t *threads, int most)
 {
     pthread_attr_t attributes;
     int started = 0;
+
     pthread_attr_init(&attributes);
     if (CPU_COUNT(&crew->elsewhere) > 0) {
         pthread_attr_setaffinity_np(&attributes, sizeof crew->elsewhere, &crew->elsewhere);
@@ -131,6 +136,7 @@ static uint64_t draw(struct engine_canvas *canvas, const struct engine_work *wor
     struct crew crew = {.canvas = canvas, .work = work};
     pthread_t threads[ENGINE_THREADS];
     const int processors = find_processors(&crew), asked = canvas->picture.program->threads;
+
     crew.threads = smaller(asked > 0 ? asked : processors, ENGINE_THREADS);
     divide(&crew);
     atomic_init(&crew.next_tile, 0);

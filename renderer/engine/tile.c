@@ -31,6 +31,7 @@ static vi block_of(const struct hand *hand, vi x, vi y)
 {
     const vi across = ((x + hand->left) >> BLOCK_BITS) - (hand->left >> BLOCK_BITS);
     const vi down = ((y + hand->top) >> BLOCK_BITS) - (hand->top >> BLOCK_BITS);
+
     return down * BLOCKS + across;
 }
 
@@ -44,6 +45,7 @@ static void find_starts(struct hand *hand)
 {
     const int across = blocks_of(hand->left, hand->width);
     const int count = across * blocks_of(hand->top, hand->height);
+
     for (int i = 0; i < count; i += LANES) {
         const vi at = i + lanes_number, column = at % across, row = at / across;
         const vf block[2] = {(vf)(column + (hand->left >> BLOCK_BITS)),
@@ -59,6 +61,7 @@ static uint8_t *place_of(const struct hand *hand, const struct engine_output *ou
 {
     const struct engine_rect tile = hand->work->tile;
     const size_t bytes = (size_t)output->channels * (output->floats ? sizeof(float) : 1);
+
     return output->pixels + (size_t)(y - tile.y) * output->stride + (size_t)(x - tile.x) * bytes;
 }
 
@@ -83,6 +86,7 @@ static bool is_light(const struct engine_output *output)
 static void write_met(struct hand *hand, vb m, vi x, vi y, const vf *met)
 {
     const struct engine_rect inner = hand->inner;
+
     m &= (x >= inner.x) & (y >= inner.y) & (x < inner.x + inner.width) &
          (y < inner.y + inner.height);
     for (size_t o = 0; o < hand->work->output_count; o++) {
@@ -116,6 +120,7 @@ static void add_sample(struct hand *hand, vb m, vi x, vi y, int index)
     const vi rays =
         spmd_trace(c, m, pixel, start, index, picture->rays, picture->transmission_depth,
                    picture->shadows, picture->lights, total, geometry, met);
+
     spmd_sample_sums(c, m, total, light, counts);
     if (index == 0) {
         write_met(hand, m, x, y, met);
@@ -186,6 +191,7 @@ static void keep(struct hand *hand, bool back)
     const struct engine_canvas *canvas = hand->canvas;
     const struct engine_rect kept = canvas->kept;
     const struct engine_rect inner = hand->inner;
+
     for (int y = inner.y; y < inner.y + inner.height; y++) {
         const size_t at = (size_t)(hand->top + y - kept.y) * (size_t)kept.width +
                           (size_t)(hand->left + inner.x - kept.x);
@@ -219,6 +225,7 @@ static void write_light(struct hand *hand, const struct engine_output *output)
     const bool blend = hand->canvas->picture.smoothing == ENGINE_BLEND;
     const struct engine_rect inner = hand->inner;
     const int right = inner.x + inner.width;
+
     for (int y = inner.y; y < inner.y + inner.height; y++) {
         for (int x = inner.x; x < right; x += LANES) {
             const vb m = x + lanes_number < right;
@@ -247,6 +254,7 @@ static void draw_samples(struct hand *hand)
     const struct engine_work *work = hand->work;
     const bool few = hand->canvas->picture.smoothing == ENGINE_ADAPTIVE;
     int index = work->from;
+
     if (index == 0) {
         memset(hand->pixels, 0, sizeof hand->pixels);
         memset(hand->counted, 0, sizeof hand->counted);
@@ -285,6 +293,7 @@ static void draw_tile(struct hand *hand, int x, int y, int width, int height)
     const int margin = picture->margin;
     int left = x - margin, top = y - margin;
     int right = x + width + margin, bottom = y + height + margin;
+
     if (picture->sparse) {
         widen(&left, &right);
         widen(&top, &bottom);

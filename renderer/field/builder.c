@@ -23,6 +23,7 @@ uint32_t builder_add_vec4s(struct builder *b, size_t count)
 {
     struct field *field = b->field;
     size_t first = field->vec4_count;
+
     field->vec4_count += count;
     if (b->again) {
         return (uint32_t)sites_touch(b, SITES_PARAMS, first, count);
@@ -36,6 +37,7 @@ uint32_t builder_add_vec4s(struct builder *b, size_t count)
 uint32_t builder_add_arguments(struct builder *b, size_t count)
 {
     size_t first = b->argument_count;
+
     b->argument_count += count;
     if (b->again) {
         return (uint32_t)sites_touch(b, SITES_ARGUMENTS, first, count);
@@ -54,6 +56,7 @@ static void max_slot(int *slots, int slot)
 void builder_add_instruction(struct builder *b, struct field_instruction instruction)
 {
     struct field *field = b->field;
+
     if (b->again) {
         sites_compare(b, field->instruction_count++, &instruction);
         return;
@@ -84,6 +87,7 @@ void builder_insert_instruction(struct builder *b, size_t position,
 struct builder_mark builder_mark(const struct builder *b)
 {
     const struct field *field = b->field;
+
     return (struct builder_mark){.instructions = field->instruction_count,
                                  .vec4s = field->vec4_count,
                                  .arguments = b->argument_count,
@@ -119,6 +123,7 @@ void builder_rewind(struct builder *b, struct builder_mark mark)
 static void hide_shape(struct field *field, const struct field_instruction *in)
 {
     float *head = field->params + 4 * ((size_t)in->params + FIELD_MATRIX_VEC4S);
+
     head[FIELD_LEAF] = head[FIELD_SLOT] = 0;
     head[FIELD_AWAY] = (float)FIELD_FAR;
 }
@@ -128,12 +133,14 @@ static void hide_guard(struct field *field, const struct field_instruction *in)
 {
     static const float nowhere[8] = {
         0, 0, 0, 2, (float)-FIELD_FAR, (float)-FIELD_FAR, (float)-FIELD_FAR};
+
     memcpy(field->params + 4 * (size_t)in->params, nowhere, sizeof nowhere);
 }
 
 void builder_hide(struct builder *b, struct builder_mark mark)
 {
     struct field *field = b->field;
+
     b->loops = mark.loops;
     for (size_t i = mark.instructions; i < field->instruction_count; i++) {
         struct field_instruction *in = &field->instructions[i];
@@ -157,6 +164,7 @@ void builder_put(struct builder *b, uint32_t vec4, int component, uint32_t argum
                  const double *numbers)
 {
     float *to = b->field->params + 4 * (size_t)vec4 + component;
+
     for (int i = 0; i < count; i++) {
         to[i] = (float)numbers[i];
         b->field->arguments[argument + (uint32_t)i] = to[i];
@@ -202,6 +210,7 @@ static void place_again(struct builder *b, uint32_t vec4, int component, const d
 {
     const float *place = b->field->params + 4 * (size_t)vec4 + component;
     const size_t first = (size_t)place[0], count = (size_t)place[1];
+
     put_points(b->field->params + 4 * first, numbers);
     sites_touch(b, SITES_PARAMS, first, (count + 1) / 2);
 }
@@ -250,6 +259,7 @@ void builder_put_params(struct builder *b, const struct param *params, const str
 {
     struct param_slot places[SDF_PARAMS_MAX];
     double numbers[SDF_NUMBERS_MAX], *from = numbers;
+
     field_layout(params, used, places);
     if (!has_room(b, params, values, places, vec4)) {
         b->failed = true;
@@ -287,6 +297,7 @@ void builder_put_params(struct builder *b, const struct param *params, const str
 void builder_add_leaf(struct builder *b, uint32_t number, const char *id)
 {
     struct field *field = b->field;
+
     if (b->again) {
         return;
     }
@@ -298,6 +309,7 @@ void builder_add_leaf(struct builder *b, uint32_t number, const char *id)
 void builder_add_member(struct builder *b, uint64_t hash)
 {
     struct field *field = b->field;
+
     if (b->again) {
         return;
     }

@@ -19,6 +19,7 @@ int field_layout(const struct param *params, int used, struct param_slot out[SDF
 {
     int taken[SDF_PARAMS_MAX + 1] = {0};
     int vec4s = (used + 3) / 4;
+
     for (int i = 0; i < used; i++) {
         taken[i / 4]++;
     }
@@ -78,6 +79,7 @@ void field_unref(struct field *field)
 static int compare_leaf(const void *key, const void *item)
 {
     uint32_t a = *(const uint32_t *)key, b = ((const struct field_leaf *)item)->number;
+
     return (a > b) - (a < b);
 }
 

@@ -15,6 +15,7 @@ static void check_poles(struct builder *b, const struct node *node, const struct
 {
     double letters[LETTERS_MAX], half[3], at[3];
     struct equation *equation = field_call_equation(b, call);
+
     for (int i = 0; equation_letters[i]; i++) {
         letters[i] = record_number(&node->params, equation_letters[i]);
     }
@@ -63,6 +64,7 @@ static void check_resources(struct builder *b, enum code_use use, const struct r
 bool field_check_code(const struct scene *scene, struct error *out_warning, struct error *err)
 {
     struct field *field = memory_alloc(1, sizeof *field);
+
     field->references = 1;
     struct builder builder = {.field = field, .scene = scene};
     check_tree(&builder, scene->root, out_warning);

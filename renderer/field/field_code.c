@@ -20,6 +20,7 @@ uint64_t field_text_hash(uint64_t state, const char *text)
 static uint64_t hash_code(const char *text, const struct param *params)
 {
     uint64_t state = field_text_hash(BUILDER_HASH_START, text);
+
     for (; params->name; params++) {
         state = field_text_hash(builder_hash(state, (uint32_t)params->type), params->name);
     }
@@ -37,6 +38,7 @@ static struct field_code *append(struct field_code **list, size_t *count)
 static struct field_code **list_of(struct field *field, enum code_use use, size_t **out_count)
 {
     const bool distance = use == CODE_DISTANCE;
+
     *out_count = distance ? &field->code_count : &field->shader_count;
     return distance ? &field->codes : &field->shaders;
 }
@@ -45,6 +47,7 @@ static struct field_code **list_of(struct field *field, enum code_use use, size_
 static int find(struct builder *b, enum code_use use, const char *text)
 {
     size_t *count;
+
     struct field_code *const *list = list_of(b->field, use, &count);
     for (size_t i = 0; i < *count; i++) {
         if ((*list)[i].text == text) {
@@ -63,6 +66,7 @@ static int add(struct builder *b, const char *text, const struct code_source *so
     struct field_code **list = list_of(b->field, source->use, &count);
     struct error err = {0};
     struct code *code = code_compile(source, &err);
+
     if (!code) {
         builder_fail(b, &err, place);
         return -1;
@@ -87,6 +91,7 @@ int field_code_add(struct builder *b, enum code_use use, const char *text,
                    const struct param *params, const char *place)
 {
     const int found = find(b, use, text);
+
     return found >= 0 || b->failed
                ? found
                : add(b, text, &(struct code_source){use, text, params, false}, place);
@@ -99,6 +104,7 @@ static void fail_equation(struct builder *b, const struct equation_errors *error
     const struct equation_error *first = &errors->list[0];
     struct error err = {0};
     char more[40] = "";
+
     if (errors->count > 1) {
         snprintf(more, sizeof more, " (and %d more)", errors->count - 1);
     }
@@ -110,6 +116,7 @@ struct equation *field_call_equation(struct builder *b, const struct field_call 
 {
     struct equation_errors errors;
     struct equation *equation = equation_read(call->text, equation_letters, &errors);
+
     if (!equation) {
         fail_equation(b, &errors, call->place);
     }
@@ -120,6 +127,7 @@ struct equation *field_call_equation(struct builder *b, const struct field_call 
 static bool check_operations(struct builder *b, const struct equation *equation, const char *place)
 {
     struct error err = {0};
+
     if (equation->count <= LIMIT_EQUATION_OPERATIONS) {
         return true;
     }
@@ -134,6 +142,7 @@ static bool check_operations(struct builder *b, const struct equation *equation,
 static int add_equation(struct builder *b, const struct field_call *call)
 {
     struct equation *equation = field_call_equation(b, call);
+
     if (!equation || !check_operations(b, equation, call->place)) {
         free(equation);
         return -1;
@@ -160,6 +169,7 @@ static void call_equation(const struct node *node, struct field_call *out)
 {
     const struct record *params = &node->params;
     const struct param *first = params->type->params;
+
     while (strcmp(first->name, "size") != 0) {
         first++;
     }
@@ -219,6 +229,7 @@ int field_shader_numbers(const struct field *field, size_t slot, double *out_n)
     const float *block = field->params + 4 * (field->material_base + slot * field->material_stride);
     int shader = (int)block[FIELD_SHADER] - 1;
     int count = 0;
+
     for (int i = 0; shader >= 0 && i < field->shaders[shader].place_count; i++) {
         const struct param_slot *place = &field->shaders[shader].places[i];
         const float *from = block + 4 * (FIELD_MATERIAL_VEC4S + place->vec4) + place->component;

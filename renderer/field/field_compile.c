@@ -20,6 +20,7 @@ static uint64_t hash_code(uint64_t state, const struct field_code *code)
 static uint64_t structure_hash(const struct field *field)
 {
     uint64_t state = BUILDER_HASH_START;
+
     for (size_t i = 0; i < field->instruction_count; i++) {
         const struct field_instruction *in = &field->instructions[i];
         state = builder_hash(state, (uint32_t)in->op);
@@ -60,6 +61,7 @@ static const struct field_code *find_user_code(const struct field *field)
 static size_t sum_code(const struct field *field)
 {
     size_t size = 0;
+
     for (size_t i = 0; i < field->instruction_count; i++) {
         const struct field_instruction *in = &field->instructions[i];
         if (in->op == FIELD_SHAPE && !in->sdf) {
@@ -76,6 +78,7 @@ static size_t sum_code(const struct field *field)
 static void add_floor(struct builder *b, struct result *whole)
 {
     const struct record *environment = &b->scene->environment;
+
     if (record_number(environment, "floor") == 0 || b->failed) {
         return;
     }
@@ -95,6 +98,7 @@ static void add_floor(struct builder *b, struct result *whole)
 static int compare_members(const void *a, const void *b)
 {
     uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+
     return (x > y) - (x < y);
 }
 
@@ -143,6 +147,7 @@ static void set_extent(struct field *field, const struct builder *b, const struc
 static void keep_sites(struct builder *b)
 {
     struct field_sites *sites = b->sites;
+
     if (!sites || b->failed) {
         sites_destroy(sites);
         free(b->material_shaders);
@@ -162,6 +167,7 @@ struct field *field_compile_as(const struct scene *scene, const struct field_opt
                                struct error *err)
 {
     struct field *field = memory_alloc(1, sizeof *field);
+
     field->references = 1;
     struct isolation *isolation =
         isolation_create(scene, options->isolated, options->isolated_count);
@@ -201,6 +207,7 @@ static bool repaint(struct builder *b, const struct field *field)
 {
     struct field_sites *sites = b->sites;
     const size_t base = field->material_base, stride = field->material_stride;
+
     if (sites->floor_changed) {
         field_put_floor(b);
         sites_touch(b, SITES_PARAMS, base + sites->slot_count * stride, stride);
@@ -229,6 +236,7 @@ bool field_run_again(struct field *field, struct field_sites *sites, const struc
                               .material_shaders = sites->material_shaders,
                               .sites = sites,
                               .again = true};
+
     places.instruction_count = places.vec4_count = 0;
     const struct result whole = emit_scene(&builder);
     if (builder.failed || places.instruction_count != field->instruction_count ||

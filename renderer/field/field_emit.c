@@ -12,6 +12,7 @@
 static uint32_t subtree_count(const struct node *node)
 {
     uint32_t count = 1;
+
     for (size_t i = 0; i < node->child_count; i++) {
         count += subtree_count(node->children[i]);
     }
@@ -29,6 +30,7 @@ static void add_block(struct builder *b, const struct node *node, const struct s
                       double scale, struct field_instruction *instruction)
 {
     struct param_slot places[SDF_PARAMS_MAX];
+
     instruction->params =
         builder_add_vec4s(b, (size_t)field_layout(node->params.type->params, 0, places));
     instruction->arguments = builder_add_arguments(b, SDF_PARAMS_MAX);
@@ -77,6 +79,7 @@ struct fold {
 static bool needs_sides(const struct builder *b, const struct field_instruction *combine)
 {
     const struct sdf *sdf = combine->sdf;
+
     return sdf->rule != SDF_ANY || sdf->operands > 0 ||
            (sdf->feels_far && sdf->feels_far(b->field->arguments + combine->arguments));
 }
@@ -119,6 +122,7 @@ static void fold_child(struct builder *b, struct fold *fold,
 {
     enum sdf_rule rule = combine->sdf->rule;
     bool vital = leads || (rule == SDF_ALL && !child->hidden);
+
     fold->count += !child->apart && (leads || !child->hidden);
     fold->dead = fold->dead || (vital && !child->solid);
     fold->lost = fold->lost || (vital && !child->shown && !child->apart);
@@ -143,6 +147,7 @@ static struct fold emit_folded(struct builder *b, const struct node *node,
     enum sdf_rule rule = combine.sdf->rule;
     struct fold fold = {.count = 0};
     bool cutting = b->cutting;
+
     combine.a = slot;
     combine.b = slot + 1;
     for (size_t i = 0; i < node->child_count; i++) {
@@ -168,6 +173,7 @@ static struct bounds changed_box(const struct node *node, const struct sdf *sdf,
                                  size_t count)
 {
     double numbers[SDF_NUMBERS_MAX];
+
     sdf_numbers(node->params.type->params, node->params.values, numbers);
     box = bounds_grow(box, sdf->lowered ? sdf->lowered(numbers, count) : 0);
     box.stretch *= sdf->stretched ? sdf->stretched(numbers, count) : 1;
@@ -178,6 +184,7 @@ static struct result emit_combine(struct builder *b, const struct node *node, co
                                   const struct node_frame *frame, uint16_t slot)
 {
     struct field_instruction combine = {.op = FIELD_COMBINE, .type = node->type, .sdf = sdf};
+
     add_block(b, node, sdf, frame->scale, &combine);
     struct fold fold = emit_folded(b, node, combine, frame, slot);
     if (fold.whole.solid) {
@@ -192,6 +199,7 @@ static struct result emit_distance(struct builder *b, const struct node *node,
 {
     struct field_instruction change = {
         .op = FIELD_DISTANCE, .type = node->type, .sdf = sdf, .a = slot};
+
     add_block(b, node, sdf, frame->scale, &change);
     struct result whole = emit_union(b, node, frame, slot, FIELD_NOTHING, (struct result){0});
     if (whole.solid) {
@@ -209,6 +217,7 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
     size_t own_count = 4 * (size_t)domain->vec4s;
     uint32_t block = builder_add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)domain->vec4s);
     uint32_t arguments = builder_add_arguments(b, 12 + own_count);
+
     builder_put(b, block, 0, arguments, 12, frame->matrix);
     uint16_t own = frame->point + 1, inner = frame->point + 2;
     bool loops = domain->range != NULL;
@@ -266,6 +275,7 @@ static struct result emit_model(struct builder *b, const struct node *node,
                                 enum field_before before, uint32_t number)
 {
     const struct resource *model = node_model(b->scene, node);
+
     if (!model) {
         return (struct result){0};
     }
@@ -308,6 +318,7 @@ static struct result emit_own_shape(struct builder *b, const struct node *node,
 {
     struct builder_mark mark = builder_mark(b);
     struct result own = field_emit_shape(b, node, frame, slot, number);
+
     if (own.solid && b->isolation && !b->within) {
         own.shown = own.transmissive = false;
         builder_hide(b, mark);
@@ -321,6 +332,7 @@ static struct result emit_joining(struct builder *b, const struct node *node,
 {
     bool joined = before != FIELD_NOTHING;
     struct result own = {.hidden = false};
+
     switch (node->type->kind) {
     case KIND_SHAPE:
     case KIND_FLAT:
@@ -344,6 +356,7 @@ static struct result emit_apart(struct builder *b, const struct node *node,
                                 const struct node_frame *frame, uint16_t slot)
 {
     const struct sdf *sdf = sdf_find(node->type);
+
     switch (node->type->kind) {
     case KIND_COMBINE:
         return emit_combine(b, node, sdf, frame, slot);
@@ -389,6 +402,7 @@ static void check(struct builder *b, const struct node *node, const struct node_
 {
     char place[32 + LIMIT_ID_BYTES];
     struct error err = {0};
+
     snprintf(place, sizeof place, "/nodes/%s", b->instance ? b->instance_node->id : node->id);
     if (!node_frame_is_sane(frame)) {
         snprintf(place, sizeof place, "/nodes/%s/transform", node->id);
@@ -411,6 +425,7 @@ static void check(struct builder *b, const struct node *node, const struct node_
 static uint64_t member_hash(const struct builder *b, const struct node *node)
 {
     uint64_t hash = field_text_hash(BUILDER_HASH_START, node->id);
+
     hash = builder_hash(builder_hash(hash, (uint32_t)node->type->number),
                         field_choices(&node->params));
     struct field_call call;
@@ -431,6 +446,7 @@ static struct result emit_node(struct builder *b, const struct node *node,
                                enum field_before before, uint32_t number)
 {
     bool joined = before != FIELD_NOTHING;
+
     if (continues(b, node)) {
         return emit_joining(b, node, frame, slot, before, number);
     }
@@ -450,6 +466,7 @@ static struct result emit_entered(struct builder *b, const struct node *node,
     double from[12], ratio;
     struct node_frame frame = node_frame_enter(outer, node, from, &ratio);
     const char *material = record_text(&node->common, "material");
+
     if (*material) {
         frame.material = field_material_slot(b->scene, material);
     }
@@ -492,6 +509,7 @@ static void check_empty(struct builder *b, const struct node *node, const struct
     struct node_frame frame = node_frame_enter(outer, node, from, &ratio);
     const struct resource *model =
         node->type->kind == KIND_MODEL ? node_model(b->scene, node) : NULL;
+
     b->failed = b->failed || !node_frame_is_sane(&frame);
     if (node->type->kind == KIND_DOMAIN) {
         frame = node_frame_create(frame.point, frame.scale, frame.material);
@@ -521,6 +539,7 @@ struct result field_emit(struct builder *b, const struct node *node, const struc
                          uint16_t slot, enum field_before before)
 {
     bool has_part = b->again && sites_has(b, node);
+
     if (has_part && is_passed_over(b, node, outer)) {
         return sites_take(b);
     }

@@ -55,6 +55,7 @@ static double run_code(const struct field *field, const struct field_instruction
 {
     const double *cut = n + FIELD_HEAD_NUMBERS;
     double within[3], square = 0, face = -INFINITY;
+
     for (int i = 0; i < 3; i++) {
         const double beyond = fabs(p[i]) - cut[i];
         within[i] = fmin(fmax(p[i], -cut[i]), cut[i]);
@@ -69,6 +70,7 @@ static double run_code(const struct field *field, const struct field_instruction
 static void run_shape(struct machine *m, const struct field_instruction *in, const double *n)
 {
     double local[3];
+
     place(n, m->p[in->point], local);
     n += 12;
     m->d[in->a] = in->sdf ? in->sdf->shape(local, n + FIELD_HEAD_NUMBERS) * n[0]
@@ -90,6 +92,7 @@ static void add_material_share(struct material_share shares[MIXED_MAX],
 {
     const double weight = more->weight * share;
     int i = 0;
+
     while (i < MIXED_MAX && !(shares[i].weight > 0 && shares[i].slot == more->slot &&
                               shares[i].cuts == more->cuts)) {
         i++;
@@ -112,6 +115,7 @@ static void add_material_share(struct material_share shares[MIXED_MAX],
 static void mix_mixes(struct material_mix *a, const struct material_mix *b, double share)
 {
     double wa = a->weight * (1 - share), wb = b->weight * share;
+
     a->leaf = wb > wa ? b->leaf : a->leaf;
     a->weight = fmax(wa, wb);
     for (int i = 0; i < MIXED_MAX; i++) {
@@ -136,6 +140,7 @@ static void run_side(struct machine *m, const struct field_instruction *in)
 static void run_combine(struct machine *m, const struct field_instruction *in, const double *n)
 {
     double share;
+
     if (in->side != FIELD_BOTH) {
         run_side(m, in);
         return;
@@ -158,6 +163,7 @@ static void run_loop(struct machine *m, const struct field_instruction *in, cons
                      size_t body)
 {
     struct loop *loop = &m->loops[m->depth++];
+
     loop->body = body;
     in->sdf->domain->range(m->p[in->point], n, loop->first, loop->last);
     memcpy(loop->cell, loop->first, sizeof loop->cell);
@@ -192,6 +198,7 @@ static size_t run_loop_end(struct machine *m, const struct field_instruction *in
 static double box_distance(const double p[3], const double *n)
 {
     double q[3];
+
     for (int i = 0; i < 3; i++) {
         q[i] = fmax(fabs(p[i] - n[i]) - n[4 + i], 0);
     }
@@ -203,6 +210,7 @@ static size_t run_guard(const struct machine *m, const struct field_instruction 
                         const double *n, size_t next)
 {
     double distance = m->mixes ? 0 : box_distance(m->p[in->point], n);
+
     if (distance == 0 || distance < m->d[in->a]) {
         return next;
     }
@@ -216,6 +224,7 @@ static size_t run_guard(const struct machine *m, const struct field_instruction 
 static void run_guard_end(struct machine *m, const struct field_instruction *in, const double *n)
 {
     double distance = m->mixes ? 0 : box_distance(m->p[in->point], n);
+
     if (distance > 0) {
         m->d[in->a] = fmax(m->d[in->a], distance);
     }
@@ -232,6 +241,7 @@ static void run_hidden(struct machine *m, const struct field_instruction *in)
 static void run(struct machine *m, const double p[3])
 {
     const struct field *field = m->field;
+
     memcpy(m->p[0], p, sizeof m->p[0]);
     m->depth = 0;
     for (size_t i = 0; i < field->instruction_count;) {
@@ -282,6 +292,7 @@ static void run(struct machine *m, const double p[3])
 double field_distance(const struct field *field, const double p[3])
 {
     struct machine machine;
+
     machine.field = field;
     machine.mixes = NULL;
     run(&machine, p);
@@ -295,6 +306,7 @@ static void apply_shader(const struct code *code, const struct material_share *m
 {
     struct code_shading at = {.ray_distance = view->distance};
     double color[4];
+
     memcpy(at.world_position, p, sizeof at.world_position);
     memcpy(at.object_position, material_share->place, sizeof at.object_position);
     memcpy(at.world_normal, view->normal, sizeof at.world_normal);
@@ -320,6 +332,7 @@ static void shade_material(const struct field *field, const struct material_shar
     const float *block = material_numbers(field, material_share->slot);
     double numbers[4 * LIMIT_DECLARED];
     const int shader = field_shader_numbers(field, material_share->slot, numbers);
+
     for (int i = 0; i < FIELD_MATERIAL_NUMBERS; i++) {
         out[i] = block[i];
     }
@@ -336,6 +349,7 @@ static void mix_materials(const struct field *field, const struct material_share
                           double out[FIELD_MATERIAL_NUMBERS])
 {
     double gloss = 0, alike = 0, sum = 0, model = 0;
+
     for (int i = 0; i < MIXED_MAX; i++) {
         sum += shares[i].weight;
     }
@@ -362,6 +376,7 @@ struct field_surface field_surface(const struct field *field, const double p[3],
     static const struct field_view nowhere = {.distance = 0};
     struct material_mix mixes[FIELD_SLOTS_MAX];
     struct machine machine;
+
     machine.field = field;
     machine.mixes = mixes;
     run(&machine, p);
@@ -375,6 +390,7 @@ void field_normal(const struct field *field, const double p[3], double h, double
 {
     static const double corners[4][3] = {{1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}, {1, 1, 1}};
     double sum[3] = {0};
+
     for (int i = 0; i < 4; i++) {
         double q[3];
         for (int j = 0; j < 3; j++) {
@@ -396,6 +412,7 @@ double field_march_within(const struct field *field, const double origin[3],
                           int max_steps)
 {
     double t = 0;
+
     for (int step = 0; step < max_steps && t < max_distance; step++) {
         double p[3];
         for (int i = 0; i < 3; i++) {

@@ -16,6 +16,7 @@ static void node_matrices(const struct node *node, double out_to[12], double out
     const double *s = record_vector(&node->transform, "scale");
     double cx = cos(r[0]), sx = sin(r[0]), cy = cos(r[1]), sy = sin(r[1]), cz = cos(r[2]),
            sz = sin(r[2]);
+
     /* Rz * Ry * Rx */
     double rotation[3][3] = {{cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx},
                              {sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx},
@@ -47,6 +48,7 @@ struct node_frame node_frame_create(uint16_t point, double scale, size_t materia
 {
     struct node_frame frame = {
         .scale = scale, .slot_scale = scale, .point = point, .material = material};
+
     memcpy(frame.matrix, identity, sizeof identity);
     memcpy(frame.back, identity, sizeof identity);
     return frame;
@@ -57,6 +59,7 @@ struct node_frame node_frame_enter(const struct node_frame *outer, const struct 
 {
     struct node_frame frame = *outer;
     double to[12], least, greatest;
+
     node_matrices(node, to, out_from, &least, &greatest);
     multiply(to, outer->matrix, frame.matrix);
     multiply(outer->back, out_from, frame.back);
@@ -69,6 +72,7 @@ struct node_frame node_frame_enter(const struct node_frame *outer, const struct 
 bool node_frame_is_sane(const struct node_frame *frame)
 {
     bool sane = frame->scale > 1e-15;
+
     for (int i = 0; i < 12; i++) {
         sane = sane && fabs(frame->matrix[i]) < 1e15;
     }

@@ -21,6 +21,7 @@ struct isolation {
 static size_t find(const struct isolation *isolation, const struct node *node)
 {
     size_t low = 0, high = isolation->count;
+
     while (low < high) {
         size_t middle = low + (high - low) / 2;
         if ((uintptr_t)isolation->entries[middle].node < (uintptr_t)node) {
@@ -35,6 +36,7 @@ static size_t find(const struct isolation *isolation, const struct node *node)
 static struct entry *at(const struct isolation *isolation, const struct node *node)
 {
     size_t index = find(isolation, node);
+
     return index < isolation->count && isolation->entries[index].node == node
                ? &isolation->entries[index]
                : NULL;
@@ -76,6 +78,7 @@ static void add_with_ancestors(struct isolation *isolation, const struct scene *
                                const struct node *node)
 {
     const struct node *top = NULL;
+
     for (; node && add(isolation, node); node = node->parent) {
         top = node->parent ? NULL : node;
     }
@@ -91,6 +94,7 @@ static void add_with_ancestors(struct isolation *isolation, const struct scene *
 struct isolation *isolation_create(const struct scene *scene, const char *const *ids, size_t count)
 {
     struct isolation *isolation = memory_alloc(1, sizeof *isolation);
+
     for (size_t i = 0; i < count; i++) {
         const struct node *node = scene_find(scene, ids[i]);
         if (node) {
@@ -116,5 +120,6 @@ void isolation_destroy(struct isolation *isolation)
 enum isolated_part isolation_part(const struct isolation *isolation, const struct node *node)
 {
     const struct entry *entry = at(isolation, node);
+
     return !entry ? ISOLATED_AWAY : entry->itself ? ISOLATED_ITSELF : ISOLATED_AROUND;
 }

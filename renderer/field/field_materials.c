@@ -13,6 +13,7 @@
 size_t field_material_slot(const struct scene *scene, const char *name)
 {
     const struct resource *found = resource_find(&scene->materials, name);
+
     for (size_t i = 0; found && i < scene->materials.count; i++) {
         if (scene->materials.items[i] == found) {
             return i + 1;
@@ -43,6 +44,7 @@ bool field_material_transmissive(const struct builder *b, size_t slot)
     const struct resource_list *materials = &b->scene->materials;
     const struct resource *material =
         slot > 0 && slot <= materials->count ? materials->items[slot - 1] : NULL;
+
     return material && (material->shader ? b->material_shaders[slot - 1].transmissive
                                          : transmission_of(&material->record) > 0);
 }
@@ -50,6 +52,7 @@ bool field_material_transmissive(const struct builder *b, size_t slot)
 static void put_vector(float *to, const struct record *record, const char *name)
 {
     const double *vector = record_vector(record, name);
+
     for (int i = 0; i < 3; i++) {
         to[i] = (float)vector[i];
     }
@@ -65,6 +68,7 @@ static void put_inside(float *to, const struct record *record)
 {
     const double *left = record_vector(record, "attenuation_color");
     double way = record_number(record, "attenuation_distance");
+
     for (int i = 0; i < 3; i++) {
         double absorption = log(1 / fmax(left[i], LEFT_LEAST)) / way;
         to[FIELD_ABSORPTION + i] = (float)fmin(absorption, ABSORPTION_MAX);
@@ -96,6 +100,7 @@ static void put_standard(float *to, const struct record *record)
     const double *base = record_vector(record, "base_color");
     double metallic = record_number(record, "metallic"), ior = record_number(record, "ior");
     double reflected = (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)), most = 0;
+
     for (int i = 0; i < 3; i++) {
         double specular = reflected + (base[i] - reflected) * metallic;
         to[FIELD_DIFFUSE + i] = (float)(base[i] * (1 - metallic));
@@ -147,6 +152,7 @@ static void put_nothing(float *to)
 static void put_default(float *to)
 {
     struct record phong;
+
     record_init(&phong, record_type_in(shader_types, "phong"));
     put_nothing(to);
     put_material(to, &phong);
@@ -166,6 +172,7 @@ void field_put_surface(double to[FIELD_MATERIAL_NUMBERS], const struct code_surf
 {
     const double r = (surface->ior - 1) / (surface->ior + 1);
     const double f0 = fmax(r * r, surface->reflectivity);
+
     if (to[FIELD_UNLIT] > 0) {
         for (int i = 0; i < 3; i++) {
             to[FIELD_EMISSION + i] += surface->color[i] + surface->emission[i];
@@ -196,6 +203,7 @@ static struct builder_material_shader material_shader_of(const struct resource *
     const struct resource *shader = material->shader;
     const struct shade *own = shader ? NULL : shade_find(material->record.type->name);
     struct builder_material_shader material_shader = {.own = own != NULL, .index = -1};
+
     if (material->users > 0 && shader) {
         material_shader.text = record_text(&shader->record, "code");
         material_shader.unlit = record_is(&shader->record, "lighting", "unlit");
@@ -210,6 +218,7 @@ static void add_material_shader(struct builder *b, const struct resource *materi
                                 struct builder_material_shader *material_shader)
 {
     char place[ERROR_PLACE_BYTES] = "";
+
     if (material->shader) {
         snprintf(place, sizeof place, "/shaders/%s/code", material->shader->name);
     }
@@ -228,6 +237,7 @@ void field_add_material_shaders(struct builder *b)
 {
     const struct resource_list *materials = &b->scene->materials;
     size_t most = 0;
+
     b->material_shaders = memory_alloc(materials->count + 1, sizeof *b->material_shaders);
     for (size_t i = 0; i < materials->count; i++) {
         struct builder_material_shader *material_shader = &b->material_shaders[i];
@@ -250,6 +260,7 @@ static void put_painter(struct builder *b, uint32_t vec4, const struct record *r
     const struct field_code *shader = &b->field->shaders[material_shader->index];
     float *to = b->field->params + 4 * (size_t)vec4;
     uint32_t arguments = builder_add_arguments(b, SDF_NUMBERS_MAX);
+
     to[FIELD_SHADER] = (float)(material_shader->index + 1);
     to[FIELD_UNLIT] = material_shader->unlit;
     if (!material_shader->unlit && code_gives_surface(shader->code)) {
@@ -266,6 +277,7 @@ enum { PADDING = 256 };
 static float *slot_numbers(const struct builder *b, size_t slot)
 {
     const struct field *field = b->field;
+
     return field->params + 4 * (field->material_base + slot * field->material_stride);
 }
 
@@ -279,6 +291,7 @@ void field_put_material(struct builder *b, size_t slot)
     const struct resource *material = b->scene->materials.items[slot - 1];
     const struct builder_material_shader *material_shader = &b->material_shaders[slot - 1];
     float *to = slot_numbers(b, slot);
+
     put_nothing(to);
     put_material(to, &material->record);
     if (material_shader->index >= 0) {
@@ -290,6 +303,7 @@ void field_put_material(struct builder *b, size_t slot)
 size_t field_material_arguments(const struct builder *b, size_t slot)
 {
     size_t before = 0;
+
     for (size_t i = 1; i < slot; i++) {
         before += b->material_shaders[i - 1].index >= 0;
     }
@@ -300,6 +314,7 @@ void field_add_materials(struct builder *b)
 {
     struct field *field = b->field;
     const size_t count = b->scene->materials.count;
+
     field->material_count = count;
     field->material_base = builder_add_vec4s(b, (count + 2) * field->material_stride);
     put_default(slot_numbers(b, 0));

@@ -23,6 +23,7 @@ struct parts {
 static bool split(struct parts *out, const char *place)
 {
     char *save = NULL;
+
     out->count = 0;
     snprintf(out->text, sizeof out->text, "%s", place);
     for (char *part = strtok_r(out->text, "/", &save); part; part = strtok_r(NULL, "/", &save)) {
@@ -39,6 +40,7 @@ static bool is_numeric(const struct record *record, const char *name)
 {
     const int index = record_type_find(record->type, name);
     const enum param_type type = index < 0 ? PARAM_TEXT : record->type->params[index].type;
+
     return type == PARAM_POINTS || (type != PARAM_ENUM && param_components(type) > 0);
 }
 
@@ -53,6 +55,7 @@ static bool mark_node(struct field_sites *sites, const struct scene *scene,
 {
     const struct node *node = scene_find(scene, parts->at[1]);
     const char *member = parts->at[2];
+
     if (!node) {
         return false;
     }
@@ -72,6 +75,7 @@ static bool mark_material(struct field_sites *sites, const struct scene *scene,
                           const struct parts *parts)
 {
     const size_t slot = field_material_slot(scene, parts->at[1]);
+
     if (slot == 0 || slot >= sites->slot_count || parts->count != 4 ||
         strcmp(parts->at[2], "properties") != 0 ||
         !is_numeric(&scene->materials.items[slot - 1]->record, parts->at[3])) {
@@ -85,6 +89,7 @@ static bool mark_material(struct field_sites *sites, const struct scene *scene,
 static bool is_beside(const struct scene *scene, const char *first)
 {
     static const char *const beside[] = {"camera", "render", "lights", "volumes"};
+
     for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++) {
         if (strcmp(first, beside[i]) == 0) {
             return true;
@@ -100,6 +105,7 @@ static bool mark_operation(struct field_sites *sites, const struct scene *scene,
     const char *at = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(op, "at"));
     const char *into = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(op, "into"));
     struct parts parts;
+
     if (!name || !(at || into) || !split(&parts, at ? at : into)) {
         return false;
     }
@@ -135,6 +141,7 @@ static bool mark_all(struct field_sites *sites, const struct scene *scene, const
 static void widen(struct field_span *span, size_t first, size_t end)
 {
     const bool none = span->first == span->end;
+
     span->first = none || first < span->first ? first : span->first;
     span->end = none || end > span->end ? end : span->end;
 }
@@ -187,6 +194,7 @@ static void copy_all(struct field *to, const struct field *from, struct field_sp
 static void catch_up(struct field *to, const struct field *from, struct field_span *out_changed)
 {
     const struct field_sites *sites = from->sites;
+
     if (!is_near(sites, to)) {
         copy_all(to, from, out_changed);
         return;
@@ -201,6 +209,7 @@ static void catch_up(struct field *to, const struct field *from, struct field_sp
 static struct field *copy(struct field *from, struct field_span *out_changed)
 {
     struct field *to = memory_alloc(1, sizeof *to);
+
     *to = *from;
     to->references = 1;
     to->base = field_ref(from->base ? from->base : from);
@@ -238,6 +247,7 @@ struct field *field_patch(struct field *from, struct field *spare, const struct 
                           const cJSON *ops, struct field_span *out_changed)
 {
     struct field_sites *sites = from->sites;
+
     *out_changed = (struct field_span){0, 0};
     if (!sites || !mark_all(sites, scene, ops)) {
         return give_up(from, NULL);

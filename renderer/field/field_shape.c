@@ -15,6 +15,7 @@
 uint32_t field_choices(const struct record *params)
 {
     uint32_t all = 0;
+
     for (int i = 0; params->type->params[i].name; i++) {
         if (params->type->params[i].type == PARAM_ENUM) {
             all = all << 8 | (uint32_t)params->values[i].number[0];
@@ -27,6 +28,7 @@ static int prepared_numbers(const struct node *node, const struct sdf *sdf,
                             double out[SDF_NUMBERS_MAX])
 {
     int count = sdf_numbers(node->params.type->params, node->params.values, out);
+
     if (sdf->prepare) {
         sdf->prepare(out);
     }
@@ -37,6 +39,7 @@ static int prepared_numbers(const struct node *node, const struct sdf *sdf,
 static void add_leaf(struct builder *b, uint32_t number, const struct node *node)
 {
     const struct field *field = b->field;
+
     b->field->shape_count++;
     const char *id = b->instance ? b->instance_node->id : node->id;
     if (id && (field->leaf_count == 0 || field->leaves[field->leaf_count - 1].number != number)) {
@@ -50,6 +53,7 @@ static void fill_head(const struct builder *b, const struct node_frame *frame, d
 {
     bool transmissive = field_material_transmissive(b, frame->material);
     const double cuts = b->cuts_transmissive ? FIELD_CUTS_TRANSMISSIVE : FIELD_CUTS_OPAQUE;
+
     out_head[FIELD_SCALE] = frame->scale / slope;
     out_head[FIELD_LEAF] = number;
     out_head[FIELD_SLOT] = (double)frame->material + (b->cutting ? cuts : 0);
@@ -68,6 +72,7 @@ static void emit_shape(struct builder *b, const struct node *node, const struct 
     uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + (size_t)count);
     double slope = sdf->lipschitz ? sdf->lipschitz(numbers) : node->type->lipschitz;
     double head[FIELD_HEAD_NUMBERS];
+
     fill_head(b, frame, slope, number, head);
     builder_put(b, block, 0, arguments, 12, frame->matrix);
     builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
@@ -89,6 +94,7 @@ static void emit_shape(struct builder *b, const struct node *node, const struct 
 static struct bounds shape_box(const struct node *node, const struct sdf *sdf)
 {
     double numbers[SDF_NUMBERS_MAX];
+
     prepared_numbers(node, sdf, numbers);
     return sdf->box(numbers);
 }
@@ -98,6 +104,7 @@ static struct bounds fill_cut(const struct field_call *call, double scale,
                               double out_cut[FIELD_CUT_NUMBERS])
 {
     struct bounds box = bounds_infinite();
+
     for (int i = 0; i < 3; i++) {
         const bool ends = call->size[i] > 0;
         box.high[i] = ends ? call->size[i] / 2 : INFINITY;
@@ -126,6 +133,7 @@ static void fill_form(const struct field_call *call, const double *numbers, int 
                                               EQUATION_REACH,
                                               call->form.sheet ? thickness / 16 : 0,
                                               0};
+
     memcpy(out, head, sizeof head);
 }
 
@@ -175,6 +183,7 @@ static struct result emit_code(struct builder *b, const struct node *node,
                                const struct field_call *call)
 {
     const int index = field_call_add(b, call);
+
     if (index < 0) {
         return (struct result){0};
     }
@@ -211,6 +220,7 @@ static struct result emit_called(struct builder *b, const struct node *node,
 {
     struct field_call call;
     struct result result = {0};
+
     if (!field_call_of(b->scene, node, &call)) {
         return result;
     }
@@ -231,6 +241,7 @@ struct result field_emit_shape(struct builder *b, const struct node *node,
                                const struct node_frame *frame, uint16_t slot, uint32_t number)
 {
     struct result result = {.solid = true, .shown = true};
+
     if (node->type->kind == KIND_CODE || node->type->kind == KIND_EQUATION) {
         result = emit_called(b, node, frame, slot, number);
     } else {

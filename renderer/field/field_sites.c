@@ -69,6 +69,7 @@ static bool is_same_result(const struct result *a, const struct result *b)
 static struct site *add(struct builder *b, const struct node *node)
 {
     struct field_sites *sites = b->sites;
+
     if (sites->count == sites->capacity) {
         sites->capacity = 2 * sites->capacity + 64;
         sites->at = memory_resize(sites->at, sites->capacity, sizeof *sites->at);
@@ -132,12 +133,14 @@ void sites_leave_out(struct builder *b)
 static struct site *next_site(const struct builder *b)
 {
     struct site *site = b->next_site < b->sites->count ? &b->sites->at[b->next_site] : NULL;
+
     return site && site->parent == b->site ? site : NULL;
 }
 
 bool sites_has(const struct builder *b, const struct node *node)
 {
     const struct site *site = next_site(b);
+
     return site && site->node == node;
 }
 
@@ -156,6 +159,7 @@ struct result sites_take(struct builder *b)
     struct site *site = &b->sites->at[b->next_site];
     const struct site_place here = place_of(b);
     struct site_place behind = site->stop;
+
     sites_leave_out(b);
     b->failed = b->failed || !is_same_place(&here, &site->start);
     behind.loops += here.loops;
@@ -171,6 +175,7 @@ struct result sites_take(struct builder *b)
 static uint32_t next_changed(const struct builder *b, uint32_t index)
 {
     const struct site *around = &b->sites->at[b->site];
+
     if (around->first_changed == SITES_NONE || index > around->last_changed) {
         return around->last;
     }
@@ -256,6 +261,7 @@ static bool is_same_instruction(const struct field_instruction *a,
 void sites_compare(struct builder *b, size_t index, const struct field_instruction *instruction)
 {
     const struct field *there = b->field->base;
+
     b->failed = b->failed || index >= there->instruction_count ||
                 !is_same_instruction(&there->instructions[index], instruction);
 }
@@ -267,6 +273,7 @@ size_t sites_touch(struct builder *b, enum sites_list list, size_t first, size_t
     struct sites_patch *patch = &b->sites->patches[b->sites->version % SITES_PATCHES];
     struct sites_range *ranges = patch->ranges[list];
     const size_t used = patch->counts[list];
+
     if (first + count > most) {
         b->failed = true;
         return 0;
@@ -286,6 +293,7 @@ size_t sites_touch(struct builder *b, enum sites_list list, size_t first, size_t
 static size_t slot_of(const struct field_sites *sites, const struct node *node)
 {
     size_t slot = (size_t)((uintptr_t)node / 16 * UINT64_C(0x9e3779b97f4a7c15) >> 32);
+
     for (slot &= sites->table_size - 1; sites->table[slot] != SITES_NONE;
          slot = (slot + 1) & (sites->table_size - 1)) {
         if (sites->at[sites->table[slot]].node == node) {

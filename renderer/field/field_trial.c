@@ -50,6 +50,7 @@ static bool is_same(const struct tried *a, const struct tried *b)
 static size_t numbers_of(const struct field_code *code)
 {
     size_t count = 0;
+
     for (int i = 0; i < code->place_count; i++) {
         count += (size_t)code->places[i].count;
     }
@@ -60,6 +61,7 @@ static struct tried shape_at(const struct field *field, const struct field_instr
 {
     const double *n = field->arguments + in->arguments + 12, *cut = n + FIELD_HEAD_NUMBERS;
     struct tried tried = {.code = &field->codes[in->choices], .lipschitz = cut[3] / n[0]};
+
     memcpy(tried.numbers, cut + FIELD_CUT_NUMBERS, numbers_of(tried.code) * sizeof *n);
     memcpy(tried.half, cut, sizeof tried.half);
     return tried;
@@ -69,6 +71,7 @@ static struct tried shape_at(const struct field *field, const struct field_instr
 static void add_shape(struct field_trial *trial, const struct tried *shape)
 {
     const bool endless = shape->half[0] >= FIELD_UNCUT;
+
     *add(trial, shape->code) = *shape;
     if (endless) {
         struct tried *far = add(trial, shape->code);
@@ -80,6 +83,7 @@ static void add_shape(struct field_trial *trial, const struct tried *shape)
 static void add_shapes(struct field_trial *trial)
 {
     const struct field *field = trial->field;
+
     for (size_t i = 0; i < field->instruction_count; i++) {
         const struct field_instruction *in = &field->instructions[i];
         if (in->op != FIELD_SHAPE || in->sdf || field->codes[in->choices].own) {
@@ -102,6 +106,7 @@ static void add_shaders(struct field_trial *trial)
 {
     const struct field *field = trial->field;
     int next = 0; /* shaders are numbered in the order of materials */
+
     for (size_t slot = 1; slot <= field->material_count; slot++) {
         double n[4 * LIMIT_DECLARED];
         if (field_shader_numbers(field, slot, n) != next) {
@@ -121,6 +126,7 @@ static void add_shaders(struct field_trial *trial)
 struct field_trial *field_trial_create(struct field *field)
 {
     struct field_trial *trial = memory_alloc(1, sizeof *trial);
+
     trial->field = field_ref(field);
     add_shapes(trial);
     add_shaders(trial);
@@ -139,6 +145,7 @@ void field_trial_destroy(struct field_trial *trial)
 bool field_trial_is_same(const struct field_trial *a, const struct field_trial *b)
 {
     bool same = a->count == b->count;
+
     for (size_t i = 0; i < a->count && same; i++) {
         same = is_same(&a->tried[i], &b->tried[i]);
     }
@@ -149,6 +156,7 @@ static void begin_next(struct field_trial *trial)
 {
     const struct tried *tried = &trial->tried[trial->next++];
     double low[3], high[3];
+
     for (int i = 0; i < 3; i++) {
         const double endless = tried->slopes_only ? FAR_HALF : BOX_HALF;
         high[i] = tried->half[i] < FIELD_UNCUT ? tried->half[i] : endless;
@@ -168,6 +176,7 @@ static void take_fault(struct field_trial *trial, struct error *found)
 static int64_t now_us(void)
 {
     struct timespec t;
+
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (int64_t)t.tv_sec * 1000000 + t.tv_nsec / 1000;
 }
@@ -181,6 +190,7 @@ bool field_trial_is_over(const struct field_trial *trial)
 void field_trial_go_on(struct field_trial *trial, int64_t us)
 {
     const int64_t end = us == FIELD_TRIAL_ALL ? FIELD_TRIAL_ALL : now_us() + us;
+
     while (!field_trial_is_over(trial)) {
         struct error found = {0};
         if (trial->probe.asked == trial->probe.points) {
@@ -208,6 +218,7 @@ const struct error *field_trial_error(const struct field_trial *trial)
 bool field_try(struct field *field, struct error *out_warning, struct error *err)
 {
     struct field_trial *trial = field_trial_create(field);
+
     field_trial_go_on(trial, FIELD_TRIAL_ALL);
     const bool ok = trial->error.kind == ERROR_NONE;
     *out_warning = trial->warning;

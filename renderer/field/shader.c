@@ -25,6 +25,7 @@ static void write_params(const struct shader_writer *w, const struct field_instr
     struct param_slot places[SDF_PARAMS_MAX];
     const struct param *params = in->type->record.params;
     int choice = 0;
+
     field_layout(params, used, places);
     for (size_t i = 0; params[i].name; i++) {
         choice += params[i].type == PARAM_ENUM;
@@ -86,6 +87,7 @@ static void write_code_point(const struct shader_writer *w, const struct field_i
 static void write_code(const struct shader_writer *w, const struct field_instruction *in)
 {
     uint32_t head = in->params + FIELD_MATRIX_VEC4S, cut = head + FIELD_HEAD_VEC4S;
+
     fprintf(w->out, "unless_away(cut(");
     if (w->field->codes) {
         fprintf(w->out, "user_%u(", in->choices);
@@ -102,6 +104,7 @@ static void write_code(const struct shader_writer *w, const struct field_instruc
 static void write_shape(struct shader_writer *w, const struct field_instruction *in)
 {
     uint32_t head = in->params + FIELD_MATRIX_VEC4S;
+
     if (w->surface && w->field->shader_count > 0) {
         fprintf(w->out, "o%u = ", in->a);
         write_local(w, in);
@@ -193,6 +196,7 @@ static void write_surfaces(struct shader_writer *w, const struct field_instructi
 {
     const bool objects = w->field->shader_count > 0;
     const bool mixed = in->sdf->soft || w->mixed[in->a] || w->mixed[in->b];
+
     if (mixed) {
         write_mixed(w, in->a);
     } else if (objects) {
@@ -322,6 +326,7 @@ static void write_instructions(struct shader_writer *w)
 {
     size_t loops[3 * LIMIT_NODE_DEPTH]; /* names of the loops and guards that are open */
     int depth = 0;
+
     for (size_t i = 0; i < w->field->instruction_count; i++) {
         const struct field_instruction *in = &w->field->instructions[i];
         switch (in->op) {
@@ -379,6 +384,7 @@ static void write_slots(const struct shader_writer *w, const char *type, const c
 static void write_apply_shader(const struct shader_writer *w)
 {
     const struct field *field = w->field;
+
     fprintf(w->out,
             "void apply_shader(Shading at, float slot, inout MaterialValues values)\n{\n"
             "int i = %zu + %zu * int(slot);\n"
@@ -443,6 +449,7 @@ static void write_map(struct shader_writer *w)
 static void write_surface(struct shader_writer *w)
 {
     const struct field *field = w->field;
+
     fputs("#include \"field.glsl\"\n#include \"mixture.glsl\"\n", w->out);
     write_functions(w);
     write_codes(w, field->shaders, field->shader_count, "shade", FIRST_SHADER);
@@ -465,6 +472,7 @@ static char *write_text(const struct field *field, bool surface)
     char *text = NULL;
     size_t length = 0;
     struct shader_writer w = {.field = field, .surface = surface};
+
     w.out = open_memstream(&text, &length);
     if (!w.out) {
         abort();
@@ -496,6 +504,7 @@ bool shader_has_kernel(const struct node_type *type, enum shader_kernel kernel)
 {
     const struct sdf *sdf = type->kind == KIND_EQUATION ? &sdf_polynomial : sdf_find(type);
     const struct sdf_domain *domain = sdf ? sdf->domain : NULL;
+
     switch (kernel) {
     case KERNEL_SHAPE:
         return sdf && sdf->shape;
@@ -518,6 +527,7 @@ void shader_code_kernels(FILE *out)
     const struct field none = {0};
     const struct field_instruction in = {.op = FIELD_SHAPE};
     struct shader_writer w = {.out = out, .field = &none};
+
     fprintf(out, "vec3 kernel_code_point(vec3 p0)\n{\nreturn ");
     write_code_point(&w, &in);
     fprintf(out, ";\n}\nfloat kernel_code_shape(float d, vec3 p0)\n{\nfloat ");

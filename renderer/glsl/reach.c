@@ -86,6 +86,7 @@ static struct piece next_token(const char *at)
 static bool is(struct piece a, const char *text)
 {
     const size_t length = strlen(text);
+
     return (size_t)(a.end - a.begin) == length && memcmp(a.begin, text, length) == 0;
 }
 

@@ -72,6 +72,7 @@ struct bounds bounds_grow(struct bounds box, double delta)
 struct bounds bounds_transform(const struct bounds *box, const double matrix[12], double ratio)
 {
     struct bounds out = {.stretch = box->stretch * ratio};
+
     for (int i = 0; i < 3; i++) {
         out.low[i] = out.high[i] = matrix[4 * i + 3];
         for (int j = 0; j < 3; j++) {
@@ -103,6 +104,7 @@ double bounds_radius_z(const struct bounds *box)
 double bounds_sphere(const struct bounds *box, double out_centre[3])
 {
     double square = 0;
+
     for (int i = 0; i < 3; i++) {
         double half = (box->high[i] - box->low[i]) / 2;
         out_centre[i] = isfinite(half) ? box->low[i] + half : 0;

@@ -21,6 +21,7 @@ static struct bounds centred_box(double x, double y)
 static struct bounds points_box(const double *points, int count, double around)
 {
     struct bounds box = plane_box(INFINITY, INFINITY, -INFINITY, -INFINITY);
+
     for (int i = 0; i < 2 * count; i++) {
         box.low[i % 2] = fmin(box.low[i % 2], points[i] - around);
         box.high[i % 2] = fmax(box.high[i % 2], points[i] + around);
@@ -39,6 +40,7 @@ static double to_segment(const double *p, const double *a, const double *b)
 {
     double x = p[0] - a[0], y = p[1] - a[1], ex = b[0] - a[0], ey = b[1] - a[1];
     double t = clamp((x * ex + y * ey) / fmax(ex * ex + ey * ey, 1e-30), 0, 1);
+
     x -= t * ex;
     y -= t * ey;
     return x * x + y * y;
@@ -72,6 +74,7 @@ static void round_rectangle_prepare(double *n)
 static double round_rectangle(const double p[3], const double *n)
 {
     double core[2] = {n[0] - 2 * n[2], n[1] - 2 * n[2]};
+
     return rectangle(p, core) - n[2];
 }
 
@@ -81,6 +84,7 @@ static double triangle2(const double p[3], const double *n)
     const double *corners[3] = {n, n + 2, n + 4};
     double turn = cross2(n[2] - n[0], n[3] - n[1], n[4] - n[0], n[5] - n[1]);
     double nearest = INFINITY, side = INFINITY;
+
     for (int i = 0; i < 3; i++) {
         const double *a = corners[i], *b = corners[(i + 1) % 3];
         double left = cross2(b[0] - a[0], b[1] - a[1], p[0] - a[0], p[1] - a[1]);
@@ -104,18 +108,21 @@ static double star(const double p[3], const double *n)
     double q[2] = {fabs(c * p[0] - s * p[1]), s * p[0] + c * p[1]};
     double tip[2] = {0, n[0]}, dent[2] = {n[2] * sin(turn / 2), n[2] * cos(turn / 2)};
     double d = sqrt(to_segment(q, tip, dent));
+
     return cross2(dent[0], dent[1] - tip[1], q[0], q[1] - tip[1]) < 0 ? -d : d;
 }
 
 static struct bounds star_box(const double *n)
 {
     double reach = fmax(n[0], n[2]);
+
     return centred_box(reach, reach);
 }
 
 static double regular_polygon(const double p[3], const double *n)
 {
     double as_star[3] = {n[0], n[1], n[0] * cos(PI / n[1])};
+
     return star(p, as_star);
 }
 
@@ -127,6 +134,7 @@ static double polygon(const double p[3], const double *n)
     const double *a = n + 1 + 2 * (count - 1);
     double nearest = INFINITY;
     bool inside = false;
+
     for (int i = 0; i < count; i++) {
         const double *b = n + 1 + 2 * i;
         double left = cross2(b[0] - a[0], b[1] - a[1], p[0] - a[0], p[1] - a[1]);
@@ -171,6 +179,7 @@ static struct bounds ring_box(const double *n)
 static void arc_prepare(double *n)
 {
     double radius = n[0], angle = n[1];
+
     n[0] = fmax(radius * sin(angle), 1e-12 * radius); /* never 0: the axis has a side */
     n[1] = radius * cos(angle);
 }
@@ -184,6 +193,7 @@ static double arc_depth(double x, double y, const double *n, bool beyond)
     double end = hypot(x - n[0], y - n[1]), out = half / fmax(end, 1e-30);
     double qx = n[0] + (x - n[0]) * out, qy = n[1] + (y - n[1]) * out;
     double nearest = beyond ? INFINITY : radius + half - r;
+
     if (!beyond && half < radius - pore) {
         nearest = fmin(nearest, half - radius + r);
     }
@@ -204,6 +214,7 @@ double flat_arc(const double p[3], const double *n)
     bool beyond = cross2(x, y, n[0], n[1]) > 0;
     double line = beyond ? hypot(x - n[0], y - n[1]) : fabs(hypot(x, y) - hypot(n[0], n[1]));
     double d = line - n[2] / 2;
+
     return d > 0 ? d : -arc_depth(x, y, n, beyond);
 }
 
@@ -211,6 +222,7 @@ static struct bounds arc_box(const double *n)
 {
     double radius = hypot(n[0], n[1]), half = n[2] / 2;
     double side = (n[1] < 0 ? radius : n[0]) + half;
+
     return plane_box(-side, n[1] - half, side, radius + half);
 }
 
@@ -223,6 +235,7 @@ static double vesica(const double p[3], const double *n)
 {
     double x = fabs(p[0]), y = fabs(p[1]), centre = n[1] / 2;
     double tip = sqrt((n[0] - centre) * (n[0] + centre));
+
     return (y - tip) * centre > x * tip ? hypot(x, y - tip) : hypot(x + centre, y) - n[0];
 }
 
@@ -241,6 +254,7 @@ static double cross(const double p[3], const double *n)
 {
     double x = fmax(fabs(p[0]), fabs(p[1])), y = fmin(fabs(p[0]), fabs(p[1]));
     double along = x - n[0] / 2, aside = y - n[1] / 2;
+
     if (along > 0 || aside > 0) {
         return hypot(fmax(along, 0), fmax(aside, 0));
     }
@@ -261,12 +275,14 @@ enum { BEZIER_STEPS = 10 };
 static double bezier_square(const double *w, const double *u, const double *v, double t)
 {
     double x = w[0] + t * (2 * u[0] + t * v[0]), y = w[1] + t * (2 * u[1] + t * v[1]);
+
     return x * x + y * y;
 }
 
 static double bezier(const double p[3], const double *n)
 {
     double w[2], u[2], v[2];
+
     for (int i = 0; i < 2; i++) {
         w[i] = n[i] - p[i];
         u[i] = n[2 + i] - n[i];
@@ -303,6 +319,7 @@ static int bezier_trips(const double *n)
 static double heart(const double p[3], const double *n)
 {
     double size = n[0], x = fabs(p[0]), y = p[1];
+
     if (x + y > size) {
         return hypot(x - size / 4, y - 3 * size / 4) - size * sqrt(0.125);
     }
@@ -314,6 +331,7 @@ static double heart(const double p[3], const double *n)
 static struct bounds heart_box(const double *n)
 {
     double side = n[0] * (0.25 + sqrt(0.125));
+
     return plane_box(-side, 0, side, n[0] * (0.75 + sqrt(0.125)));
 }
 
@@ -325,6 +343,7 @@ static double ellipse(const double p[3], const double *n)
 static struct bounds ellipse_box(const double *n)
 {
     struct bounds box = centred_box(n[0], n[1]);
+
     box.stretch = fmax(n[0], n[1]) / fmin(n[0], n[1]);
     return box;
 }

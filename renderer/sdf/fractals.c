@@ -10,6 +10,7 @@
 static double box(const double p[3], double x, double y, double z)
 {
     double q[3] = {fabs(p[0]) - x / 2, fabs(p[1]) - y / 2, fabs(p[2]) - z / 2};
+
     return length3(fmax(q[0], 0), fmax(q[1], 0), fmax(q[2], 0)) +
            fmin(fmax(q[0], fmax(q[1], q[2])), 0);
 }
@@ -19,6 +20,7 @@ static double box(const double p[3], double x, double y, double z)
 static double gyroid(const double p[3], const double *n)
 {
     double s[3], c[3];
+
     for (int i = 0; i < 3; i++) {
         double turns = p[i] / n[0];
         s[i] = sin(2 * PI * (turns - round(turns)));
@@ -41,6 +43,7 @@ static struct bounds gyroid_box(const double *n)
 static double menger(const double p[3], const double *n)
 {
     double d = box(p, n[0], n[0], n[0]), cell = n[0], q[3] = {p[0], p[1], p[2]};
+
     for (int level = 0; level < (int)n[1]; level++, cell /= 3) {
         double a[3];
         for (int i = 0; i < 3; i++) {
@@ -82,6 +85,7 @@ static double julia(const double p[3], const double *n)
     const double edge = (1 + sqrt(1 + 4 * hypot(hypot(n[0], n[1]), hypot(n[2], n[3])))) / 2;
     double radius[JULIA_ITERATIONS + 1], q[4] = {p[0], p[1], p[2], 0};
     int last = 0;
+
     radius[0] = length3(p[0], p[1], p[2]);
     while (last < (int)n[4] && radius[last] < 2 * edge) {
         double real = 2 * q[0];
@@ -102,6 +106,7 @@ static double julia(const double p[3], const double *n)
 static struct bounds julia_box(const double *n)
 {
     double edge = (1 + sqrt(1 + 4 * hypot(hypot(n[0], n[1]), hypot(n[2], n[3])))) / 2;
+
     return bounds_centred(edge, edge, edge);
 }
 
@@ -121,6 +126,7 @@ struct orbit {
 static void bulb_power(double z[3], double r, double a, int power)
 {
     double axis = fmax(a, 1e-30), turn[2] = {1, 0}, around[2] = {1, 0};
+
     for (int i = 0; i < power; i++) {
         double t = turn[0] * z[1] - turn[1] * a, s = around[0] * z[2] - around[1] * z[0];
         turn[1] = (turn[1] * z[1] + turn[0] * a) / fmax(r, 1e-30);
@@ -137,6 +143,7 @@ static void bulb_power(double z[3], double r, double a, int power)
 static void follow(struct orbit *orbit, const double p[3], int iterations)
 {
     double z[3] = {p[0], p[1], p[2]};
+
     for (int i = 0;; i++) {
         double r = length3(z[0], z[1], z[2]), a = hypot(z[0], z[2]);
         orbit->last = i;
@@ -163,6 +170,7 @@ static double reach(const struct orbit *orbit, double ball)
 {
     const bool inside = orbit->radius[orbit->last] <= orbit->edge;
     double grown = 1, best = 0; /* how much larger the ball is than at first */
+
     for (int i = 0; i <= orbit->last; i++) {
         double r = orbit->radius[i], room = inside ? orbit->edge - r : r - orbit->edge;
         best = !inside || i == orbit->last ? fmax(best, room / grown) : 0;
@@ -179,6 +187,7 @@ static double reach(const struct orbit *orbit, double ball)
 static double mandelbulb(const double p[3], const double *n)
 {
     struct orbit orbit = {.power = n[0], .edge = exp2(1 / (n[0] - 1))};
+
     follow(&orbit, p, (int)n[1]);
     /* Where |p| <= r - r^power for some r, orbits stay below that r. */
     double core = (n[0] - 1) * pow(n[0], n[0] / (1 - n[0])) - orbit.radius[0];
@@ -205,6 +214,7 @@ static double mandelbulb(const double p[3], const double *n)
 static struct bounds mandelbulb_box(const double *n)
 {
     double edge = exp2(1 / (n[0] - 1));
+
     return bounds_centred(edge, edge, edge);
 }
 
@@ -220,6 +230,7 @@ static int mandelbulb_trips(const double *n)
 static double corner_height(int32_t x, int32_t z, uint32_t seed)
 {
     uint32_t h = (uint32_t)x * 0x9e3779b1u + (uint32_t)z * 0x85ebca77u + seed * 0xc2b2ae3du;
+
     h = (h ^ h >> 16) * 0x7feb352du;
     h = (h ^ h >> 15) * 0x846ca68bu;
     return (double)((h ^ h >> 16) >> 8) / 16777215;
@@ -233,6 +244,7 @@ static double corner_height(int32_t x, int32_t z, uint32_t seed)
 static double value_noise(double x, double z, uint32_t seed)
 {
     double i = floor(x), j = floor(z), u = x - i, v = z - j;
+
     u *= u * (3 - 2 * u);
     v *= v * (3 - 2 * v);
     double near_left = corner_height((int32_t)i, (int32_t)j, seed);
@@ -250,6 +262,7 @@ static double terrain(const double p[3], const double *n)
     double cell = fmax(n[0], n[2]) / 4, whole = 2 - exp2(1 - n[3]);
     double steepness = hypot(1, 1.6 * n[3] * n[1] / (whole * cell));
     double d = box(p, n[0], n[1], n[2]), low = (p[1] + n[1] / 2) / steepness;
+
     if (low <= d) {
         return d; /* so also over the lowest ground */
     }

@@ -34,6 +34,7 @@ static void mirror_prepare(const double *params, const struct bounds *child, dou
 static struct bounds mirror_box(const double *params, const struct bounds *child)
 {
     struct bounds out = *child;
+
     for (int i = 0; i < 3; i++) {
         if (params[i] != 0) {
             /* Nothing on the positive side: what grows there by and by lies around the plane. */
@@ -65,6 +66,7 @@ static void elongate_prepare(const double *params, const struct bounds *child, d
 static struct bounds elongate_box(const double *params, const struct bounds *child)
 {
     struct bounds out = *child;
+
     for (int i = 0; i < 3; i++) {
         out.low[i] -= params[i];
         out.high[i] += params[i];
@@ -82,6 +84,7 @@ static void elongate_map(const double p[3], const double *n, double out[3])
 static double elongate_after(double d, const double p[3], const double *n)
 {
     double face = fmax(fabs(p[0]) - n[0], fmax(fabs(p[1]) - n[1], fabs(p[2]) - n[2]));
+
     return d < 0 ? d + fmin(face, 0) * n[3] : d;
 }
 
@@ -101,6 +104,7 @@ static void extrude_prepare(const double *params, const struct bounds *child, do
 static struct bounds extrude_box(const double *params, const struct bounds *child)
 {
     struct bounds out = *child;
+
     out.high[2] = params[0] / 2;
     out.low[2] = -out.high[2];
     return out;
@@ -116,6 +120,7 @@ static void extrude_map(const double p[3], const double *n, double out[3])
 static double extrude_after(double d, const double p[3], const double *n)
 {
     double along = (fabs(p[2]) - n[HALF]) * n[EXTRUDE_SCALE];
+
     return corner(d + n[ROUNDING], along + n[ROUNDING]) - n[ROUNDING];
 }
 
@@ -131,6 +136,7 @@ static struct bounds revolve_box(const double *params, const struct bounds *chil
 {
     struct bounds out = *child;
     double radius = fmax(child->high[0] + params[0], 0);
+
     out.low[0] = out.low[2] = -radius;
     out.high[0] = out.high[2] = radius;
     return out;

@@ -24,6 +24,7 @@ double noise_lattice(uint32_t x, uint32_t y, uint32_t z, uint32_t seed)
 {
     uint32_t h = x * UINT32_C(0x9e3779b1) + y * UINT32_C(0x85ebca77) + z * UINT32_C(0xc2b2ae3d) +
                  seed * UINT32_C(0x27d4eb2f);
+
     h = (h ^ h >> 16) * UINT32_C(0x85ebca6b);
     h = (h ^ h >> 13) * UINT32_C(0xc2b2ae35);
     h ^= h >> 16;
@@ -44,6 +45,7 @@ double noise_value(const double p[3], uint32_t seed)
 {
     uint32_t at[3][2];
     double u[3];
+
     for (int i = 0; i < 3; i++) {
         double whole = floor(p[i]), t = p[i] - whole;
         at[i][0] = (uint32_t)(whole - PERIOD * floor(whole / PERIOD)) & 0xffff;
@@ -62,6 +64,7 @@ double noise_value(const double p[3], uint32_t seed)
 double noise_octaves(const double p[3], int octaves, uint32_t seed)
 {
     double q[3] = {p[0], p[1], p[2]}, height = 1, sum = 0;
+
     for (int i = 0; i < octaves; i++) {
         sum += height * noise_value(q, seed + (uint32_t)i);
         height /= 2;

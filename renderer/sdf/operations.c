@@ -82,6 +82,7 @@ static void blend_scale(double *n, double scale)
 static double blend_depth(double x, double k, const double *n, double *out_greater)
 {
     double h = fmax(k - x, 0) / k, y = 1 - h, root;
+
     switch ((enum kernel)n[1]) {
     case CUBIC:
         *out_greater = h * h / 2;
@@ -131,6 +132,7 @@ static double smin(double a, double b, const double *n, double *out_share)
     double least = fmin(a, b), most = fmax(a, b), greater;
     double d = kernel == POWER ? power_blend(least, most, n[0], &greater)
                                : least - blend_depth(most - least, n[0], n, &greater);
+
     *out_share = b < a ? 1 - greater : greater;
     return d;
 }
@@ -151,6 +153,7 @@ static double blend_lowered(const double *n, size_t count)
 {
     enum kernel kernel = (enum kernel)n[1];
     double k = blend_k(n), x = 0, greater;
+
     for (size_t i = 1; i < count && kernel != POWER; i++) {
         x += blend_depth(x, k, n, &greater);
     }
@@ -161,6 +164,7 @@ static double blend_lowered(const double *n, size_t count)
 static double blend_stretched(const double *n, size_t count)
 {
     bool power = (enum kernel)n[1] == POWER && count > 1;
+
     return power ? pow((double)count, 1 / blend_k(n)) : 1;
 }
 

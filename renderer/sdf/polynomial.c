@@ -21,6 +21,7 @@ static int further_rows(int length)
 size_t polynomial_rows(int degree)
 {
     size_t rows = (size_t)degree + 1 + (size_t)polynomial_rest_rows(degree);
+
     for (int i = 0; i <= degree; i++) {
         for (int j = 0; j <= degree - i; j++) {
             rows += 1 + (size_t)further_rows(degree - i - j + 1);
@@ -88,6 +89,7 @@ void polynomial_write(int degree, const double *c, double *out)
 {
     double own[POLYNOMIAL_DEGREE_MAX + 1];
     const int rest = 4 * polynomial_rest_rows(degree);
+
     memset(out, 0, 4 * polynomial_rows(degree) * sizeof *out);
     norms(degree, c, own);
     for (int m = 4; m <= degree; m++) {
@@ -148,6 +150,7 @@ static void step_x(double a[SERIES], double x, double r[ORDERS][ORDERS])
 static void find_orders(const double p[3], const double *n, int degree, double out[ORDERS])
 {
     double a[SERIES] = {0};
+
     for (int i = 0; i <= degree; i++) {
         double r[ORDERS][ORDERS] = {{0}};
         const int rows = (int)n[0];
@@ -170,6 +173,7 @@ static void find_orders(const double p[3], const double *n, int degree, double o
 static double rest_within(const double *n, int count, double radius)
 {
     double sum = 0;
+
     for (int i = 0; i < 4 * count; i++) {
         sum = sum * radius + n[i];
     }
@@ -190,6 +194,7 @@ static double slope(const double b[5], double r)
 static double way(double f, const double b[5], double most)
 {
     double r = fmin(fmin(f / b[1], sqrt(f / b[2])), fmin(sqrt(sqrt(f / fmax(b[4], 1e-18))), most));
+
     for (int i = 0; i < 3; i++) {
         r -= fmax(change(b, r) - f, 0) / slope(b, r);
     }
@@ -200,6 +205,7 @@ static double sheet(double f, const double b[5], double thickness, double grain,
 {
     const double half = 0.5 * thickness, begin = half * slope(b, grain);
     double s = most, whole = begin;
+
     for (int i = 0; i < 4; i++) {
         const double t = s + grain;
         const double bend = (12 * b[4] * t + 6 * b[3]) * t + 2 * b[2];
@@ -216,6 +222,7 @@ static double within(const double p[3], const double *n)
     const double *rest = n + (size_t)(4 * POLYNOMIAL_HEAD);
     const int degree = (int)n[6], count = (int)n[7];
     double b[5] = {0};
+
     find_orders(p, rest + (size_t)(4 * count), degree, b);
     const double f = fabs(b[0]), radius = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
     for (int i = 1; i < ORDERS; i++) {
@@ -243,6 +250,7 @@ double polynomial_distance(const double p[3], const double *n)
     const double extent = n[3], radius = n[4];
     const double length = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
     double near[3], square = 0, face = -INFINITY;
+
     for (int i = 0; i < 3; i++) {
         near[i] = radius > 0 ? p[i] * fmin(1, radius / fmax(length, 1e-18))
                              : fmin(fmax(p[i], -n[i]), n[i]);

@@ -58,6 +58,7 @@ static void repeat_prepare(const double *params, const struct bounds *child, dou
 static struct bounds repeat_box(const double *params, const struct bounds *child)
 {
     struct bounds out = *child;
+
     for (int i = 0; i < 3; i++) {
         double count = params[3 + i];
         double reach = count < 0 ? INFINITY : params[i] * fmax(count - 1, 0) / 2;
@@ -115,6 +116,7 @@ static bool has_axis(const double low[3], const double high[3])
 static void see_box(const double low[3], const double high[3], struct fan *fan)
 {
     double toward = atan2(low[2] + high[2], low[0] + high[0]), least = 0, most = 0;
+
     for (int i = 0; i < 4; i++) {
         double turn = atan2(i & 1 ? high[2] : low[2], i & 2 ? high[0] : low[0]) - toward;
         turn -= 2 * PI * round(turn / (2 * PI));
@@ -129,6 +131,7 @@ static struct fan fan_of(const double *params, const struct bounds *child)
 {
     struct fan fan = {.half = PI, .around = params[0]};
     struct bounds moved = *child;
+
     moved.low[0] += params[1];
     moved.high[0] += params[1];
     if (bounds_is_finite(&moved) && !has_axis(moved.low, moved.high)) {
@@ -152,6 +155,7 @@ static void polar_prepare(const double *params, const struct bounds *child, doub
                           double *out_n)
 {
     struct fan fan = fan_of(params, child);
+
     out_n[POLAR_RADIUS] = params[1];
     out_n[STEP] = 2 * PI / fan.around;
     out_n[MIDDLE] = fan.middle;
@@ -167,6 +171,7 @@ static struct bounds polar_box(const double *params, const struct bounds *child)
 {
     double slack = fan_of(params, child).slack, lag = 1 - child->stretch * slack;
     struct bounds out = *child;
+
     out.low[0] += params[1];
     out.high[0] += params[1];
     double radius = lag > 0 ? bounds_radius_y(&out) / lag : INFINITY;
@@ -180,6 +185,7 @@ static struct bounds polar_box(const double *params, const struct bounds *child)
 static void polar_range(const double p[3], const double *n, double out_first[3], double out_last[3])
 {
     double x = (atan2(p[2], p[0]) - n[MIDDLE]) / n[STEP] + 0.5;
+
     out_first[0] = floor(x - n[REACH]);
     out_last[0] = fmin(floor(x + n[REACH]), out_first[0] + n[AROUND] - 1);
     out_first[1] = out_first[2] = out_last[1] = out_last[2] = 0;
@@ -188,6 +194,7 @@ static void polar_range(const double p[3], const double *n, double out_first[3],
 static void polar_cell(const double p[3], const double cell[3], const double *n, double out[3])
 {
     double c = cos(n[STEP] * cell[0]), s = sin(n[STEP] * cell[0]);
+
     out[0] = c * p[0] + s * p[2] - n[POLAR_RADIUS];
     out[1] = p[1];
     out[2] = c * p[2] - s * p[0];

@@ -37,6 +37,7 @@ int sdf_numbers(const struct param *params, const struct value *values,
                 double out_n[SDF_NUMBERS_MAX])
 {
     int count = 0;
+
     for (int i = 0; params[i].name; i++) {
         const struct value *value = &values[i];
         int components = param_components(params[i].type);

@@ -15,6 +15,7 @@ static struct bounds sphere_box(const double *n)
 static double box(const double p[3], const double *n)
 {
     double x = fabs(p[0]) - n[0] / 2, y = fabs(p[1]) - n[1] / 2, z = fabs(p[2]) - n[2] / 2;
+
     return length3(fmax(x, 0), fmax(y, 0), fmax(z, 0)) + fmin(fmax(x, fmax(y, z)), 0);
 }
 
@@ -34,12 +35,14 @@ static double ellipsoid(const double p[3], const double *n)
 {
     double size[3] = {2 * n[0], 2 * n[1], 2 * n[2]};
     double ball = length3(p[0] / n[0], p[1] / n[1], p[2] / n[2]) - 1;
+
     return fmax(ball * fmin(n[0], fmin(n[1], n[2])), box(p, size) - ellipsoid_margin(n));
 }
 
 static struct bounds ellipsoid_box(const double *n)
 {
     double margin = ellipsoid_margin(n);
+
     return bounds_centred(n[0] + margin, n[1] + margin, n[2] + margin);
 }
 
@@ -51,6 +54,7 @@ static void round_box_prepare(double *n)
 static double round_box(const double p[3], const double *n)
 {
     double core[3] = {n[0] - 2 * n[3], n[1] - 2 * n[3], n[2] - 2 * n[3]};
+
     return box(p, core) - n[3];
 }
 
@@ -59,6 +63,7 @@ static double round_box(const double p[3], const double *n)
 static double box_frame(const double p[3], const double *n)
 {
     double along[3], across[3], open[3], outside = INFINITY, depth = INFINITY;
+
     for (int i = 0; i < 3; i++) {
         double q = fabs(p[i]) - n[i] / 2;
         along[i] = fmax(q, 0);
@@ -79,6 +84,7 @@ static double box_frame(const double p[3], const double *n)
 static double disc_pair(double x, double y, double radius, double tube)
 {
     double from = hypot(x - radius, y);
+
     if (radius * from < tube * (radius - x)) {
         return -hypot(x, fabs(y) - sqrt((tube - radius) * (tube + radius)));
     }
@@ -99,6 +105,7 @@ static struct bounds torus_box(const double *n)
 static void capped_torus_prepare(double *n)
 {
     double radius = n[0], angle = n[2];
+
     n[0] = fmax(radius * sin(angle), 1e-12 * radius); /* never 0: the axis has a side */
     n[2] = radius * cos(angle);
 }
@@ -111,6 +118,7 @@ static double capped_torus_depth(double x, double y, double z, const double *n, 
 {
     double tube = n[1], radius = hypot(n[0], n[2]), depth = INFINITY;
     double middle = beyond ? n[0] : radius, from = beyond ? x : hypot(x, y);
+
     if (middle * ring + tube * (from - middle) >= 0) {
         depth = tube - ring;
     }
@@ -132,12 +140,14 @@ static double capped_torus(const double p[3], const double *n)
     bool beyond = x * n[2] - y * n[0] > 0;
     double ring =
         beyond ? length3(x - n[0], y - n[2], z) : hypot(hypot(x, y) - hypot(n[0], n[2]), z);
+
     return ring < n[1] ? -capped_torus_depth(x, y, z, n, ring, beyond) : ring - n[1];
 }
 
 static struct bounds capped_torus_box(const double *n)
 {
     double radius = hypot(n[0], n[2]), side = (n[2] < 0 ? radius : n[0]) + n[1];
+
     return (struct bounds){
         .low = {-side, n[2] - n[1], -n[1]}, .high = {side, radius + n[1], n[1]}, .stretch = 1};
 }
@@ -170,12 +180,14 @@ static void round_cylinder_prepare(double *n)
 static double round_cylinder(const double p[3], const double *n)
 {
     double core[2] = {n[0] - n[2], n[1] - 2 * n[2]};
+
     return cylinder(p, core) - n[2];
 }
 
 static double capsule(const double p[3], const double *n)
 {
     double pa[3], ba[3];
+
     for (int i = 0; i < 3; i++) {
         pa[i] = p[i] - n[i];
         ba[i] = n[3 + i] - n[i];
@@ -187,6 +199,7 @@ static double capsule(const double p[3], const double *n)
 static struct bounds capsule_box(const double *n)
 {
     struct bounds box = {.stretch = 1};
+
     for (int i = 0; i < 3; i++) {
         box.low[i] = fmin(n[i], n[3 + i]) - n[6];
         box.high[i] = fmax(n[i], n[3 + i]) + n[6];
@@ -204,6 +217,7 @@ static double cone(const double p[3], const double *n)
     double slope = hypot(x - t * radius, y - t * height);
     double base = hypot(x - fmin(x, radius), y - height);
     double outside = fmax(x * height - y * radius, y - height);
+
     return outside > 0 ? fmin(slope, base) : -fmin(slope, base);
 }
 
@@ -216,12 +230,14 @@ static double capped_cone(const double p[3], const double *n)
     double t = clamp((wx * sx + wy * sy) / (sx * sx + sy * sy), 0, 1);
     double d =
         fmin(hypot(wx - t * sx, wy - t * sy), hypot(fmax(x - (p[1] < 0 ? n[0] : n[1]), 0), over));
+
     return over > 0 || wx * sy > wy * sx ? d : -d;
 }
 
 static struct bounds capped_cone_box(const double *n)
 {
     double side = fmax(n[0], n[1]);
+
     return bounds_centred(side, n[2] / 2, side);
 }
 
@@ -230,6 +246,7 @@ static double round_cone(const double p[3], const double *n)
 {
     double x = hypot(p[0], p[2]), y = p[1], tilt = (n[0] - n[1]) / n[2];
     double level = sqrt(fmax((1 - tilt) * (1 + tilt), 0)), along = y * level - x * tilt;
+
     if (tilt >= 1 || (tilt > -1 && along < 0)) {
         return hypot(x, y) - n[0];
     }
@@ -242,6 +259,7 @@ static double round_cone(const double p[3], const double *n)
 static struct bounds round_cone_box(const double *n)
 {
     double side = fmax(n[0], n[1]);
+
     return (struct bounds){.low = {-side, fmin(-n[0], n[2] - n[1]), -side},
                            .high = {side, fmax(n[0], n[2] + n[1]), side},
                            .stretch = 1};
@@ -252,6 +270,7 @@ static void solid_angle_prepare(double *n)
 {
     double radius = n[0], angle = n[1];
     bool whole = angle > 3.14159;
+
     n[0] = whole ? 0 : fmax(radius * sin(angle), 1e-12 * radius);
     n[1] = whole ? -radius : radius * cos(angle);
 }
@@ -261,6 +280,7 @@ static double solid_angle(const double p[3], const double *n)
     double x = hypot(p[0], p[2]), y = p[1], radius = hypot(n[0], n[1]);
     double t = clamp((x * n[0] + y * n[1]) / (radius * radius), 0, 1);
     double ball = hypot(x, y) - radius, side = hypot(x - t * n[0], y - t * n[1]);
+
     if (n[0] == 0) {
         return ball;
     }
@@ -270,6 +290,7 @@ static double solid_angle(const double p[3], const double *n)
 static struct bounds solid_angle_box(const double *n)
 {
     double radius = hypot(n[0], n[1]), side = n[1] < 0 ? radius : n[0];
+
     return (struct bounds){
         .low = {-side, fmin(n[1], 0), -side}, .high = {side, radius, side}, .stretch = 1};
 }
@@ -283,6 +304,7 @@ static void cut_sphere_prepare(double *n)
 static double cut_sphere(const double p[3], const double *n)
 {
     double x = hypot(p[0], p[2]), y = p[1], rim = sqrt((n[0] - n[1]) * (n[0] + n[1]));
+
     if (x > rim && x * n[1] > y * rim) {
         return hypot(x - rim, y - n[1]);
     }
@@ -292,6 +314,7 @@ static double cut_sphere(const double p[3], const double *n)
 static struct bounds cut_sphere_box(const double *n)
 {
     double side = n[1] > 0 ? sqrt((n[0] - n[1]) * (n[0] + n[1])) : n[0];
+
     return (struct bounds){.low = {-side, n[1], -side}, .high = {side, n[0], side}, .stretch = 1};
 }
 
@@ -299,6 +322,7 @@ static struct bounds cut_sphere_box(const double *n)
 static void cut_hollow_sphere_prepare(double *n)
 {
     double radius = n[0], height = clamp(n[1], -radius, radius);
+
     n[0] = fmax(sqrt((radius - height) * (radius + height)), 1e-12 * radius);
     n[1] = height;
 }
@@ -306,12 +330,14 @@ static void cut_hollow_sphere_prepare(double *n)
 static double cut_hollow_sphere(const double p[3], const double *n)
 {
     const double q[3] = {hypot(p[0], p[2]), -p[1], 0}, arc[3] = {n[0], -n[1], 2 * n[2]};
+
     return flat_arc(q, arc);
 }
 
 static struct bounds cut_hollow_sphere_box(const double *n)
 {
     double radius = hypot(n[0], n[1]), side = (n[1] > 0 ? radius : n[0]) + n[2];
+
     return (struct bounds){
         .low = {-side, -radius - n[2], -side}, .high = {side, n[1] + n[2], side}, .stretch = 1};
 }
@@ -334,6 +360,7 @@ static void death_star_rim(const double *n, double *out_x, double *out_r)
 static double death_star(const double p[3], const double *n)
 {
     double x = p[0], y = hypot(p[1], p[2]), rim_x, rim_r;
+
     death_star_rim(n, &rim_x, &rim_r);
     if (x * rim_r > y * rim_x && (x - n[2]) * rim_r > y * (rim_x - n[2])) {
         return hypot(x - rim_x, y - rim_r);
@@ -344,6 +371,7 @@ static double death_star(const double p[3], const double *n)
 static struct bounds death_star_box(const double *n)
 {
     double rim_x, rim_r;
+
     death_star_rim(n, &rim_x, &rim_r);
     double side = rim_x < 0 ? rim_r : n[0];
     return (struct bounds){
@@ -353,6 +381,7 @@ static struct bounds death_star_box(const double *n)
 static void plane_prepare(double *n)
 {
     double length = length3(n[0], n[1], n[2]);
+
     for (int i = 0; i < 3; i++) {
         n[i] = length > 0 ? n[i] / length : i == 1;
     }
@@ -366,6 +395,7 @@ static double plane(const double p[3], const double *n)
 static struct bounds plane_box(const double *n)
 {
     struct bounds box = bounds_infinite();
+
     for (int i = 0; i < 3; i++) {
         if (n[i] == 1) {
             box.high[i] = n[3];

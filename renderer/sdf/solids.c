@@ -20,6 +20,7 @@ static double hex_prism(const double p[3], const double *n)
     double x = fabs(p[0]), y = fabs(p[1]);
     double beyond = fmax(x * sqrt(3) / 2 - y / 2, 0); /* of the mirror between two sides */
     double flat = side(x - beyond * sqrt(3), y + beyond, n[0], n[0] / sqrt(3));
+
     return corner(flat, fabs(p[2]) - n[1] / 2);
 }
 
@@ -33,12 +34,14 @@ static double tri_prism(const double p[3], const double *n)
     double x = fabs(p[0]), y = p[1];
     double beyond = fmax(x / 2 + y * sqrt(3) / 2, 0);
     double flat = side(x - beyond, beyond * sqrt(3) - y, n[0], n[0] * sqrt(3));
+
     return corner(flat, fabs(p[2]) - n[1] / 2);
 }
 
 static struct bounds tri_prism_box(const double *n)
 {
     struct bounds box = bounds_centred(n[0] * sqrt(3), n[0], n[1] / 2);
+
     box.high[1] = 2 * n[0];
     return box;
 }
@@ -53,6 +56,7 @@ static double octahedron(const double p[3], const double *n)
     int least = a[0] <= fmin(a[1], a[2]) ? 0 : a[1] <= a[2] ? 1 : 2;
     double x = a[least], y = a[(least + 1) % 3], z = a[(least + 2) % 3];
     double face = x + y + z - n[0], t = clamp((z - y + n[0]) / 2, 0, n[0]);
+
     return 3 * x < face ? length3(x, y - n[0] + t, z - t) : face / sqrt(3);
 }
 
@@ -69,6 +73,7 @@ static double regular(const double q[3], const double ways[3][3], double radius)
     double axes[3][3], corner_at[3], w[3];
     double along_face = dot(ways[0], ways[0]), along_corner = dot(ways[2], ways[2]);
     double inner = radius * dot(ways[0], ways[2]) / sqrt(along_face * along_corner);
+
     for (int i = 0; i < 3; i++) {
         double face = ways[0][i] / sqrt(along_face);
         double edge = ways[1][i] * inner * sqrt(along_face) / dot(ways[0], ways[1]);
@@ -93,6 +98,7 @@ static double tetrahedron(const double p[3], const double *n)
     bool odd = (p[0] < 0) != ((p[1] < 0) != (p[2] < 0));
     double q[3] = {fmax(x, fmax(y, z)), fmax(fmin(x, y), fmin(fmax(x, y), z)),
                    odd ? -least : least};
+
     return regular(q, ways, n[0]);
 }
 
@@ -100,6 +106,7 @@ static double tetrahedron(const double p[3], const double *n)
 static struct bounds tetrahedron_box(const double *n)
 {
     double x = n[0] / sqrt(3);
+
     return bounds_centred(x, x, x);
 }
 
@@ -108,6 +115,7 @@ static struct bounds tetrahedron_box(const double *n)
 static void icosahedral(double q[3])
 {
     static const double mirror[3] = {GOLDEN / 2, 0.5, -1 / (2 * GOLDEN)};
+
     for (int round = 0; round <= 3; round++) {
         double beyond = round ? fmax(dot(q, mirror), 0) : 0;
         for (int i = 0; i < 3; i++) {
@@ -121,6 +129,7 @@ static double dodecahedron(const double p[3], const double *n)
 {
     static const double ways[3][3] = {{0, 1, GOLDEN}, {0, 0, 1}, {1, 0, GOLDEN + 1}};
     double q[3] = {p[1], p[0], p[2]};
+
     icosahedral(q);
     return regular(q, ways, n[0]);
 }
@@ -128,6 +137,7 @@ static double dodecahedron(const double p[3], const double *n)
 static struct bounds dodecahedron_box(const double *n)
 {
     double x = n[0] * GOLDEN / sqrt(3);
+
     return bounds_centred(x, x, x);
 }
 
@@ -135,6 +145,7 @@ static double icosahedron(const double p[3], const double *n)
 {
     static const double ways[3][3] = {{1, 0, GOLDEN + 1}, {0, 0, 1}, {0, 1, GOLDEN}};
     double q[3] = {p[0], p[1], p[2]};
+
     icosahedral(q);
     return regular(q, ways, n[0]);
 }
@@ -142,6 +153,7 @@ static double icosahedron(const double p[3], const double *n)
 static struct bounds icosahedron_box(const double *n)
 {
     double x = n[0] * GOLDEN / sqrt(GOLDEN + 2);
+
     return bounds_centred(x, x, x);
 }
 
@@ -155,6 +167,7 @@ static double pyramid(const double p[3], const double *n)
     double half = n[0] / 2, height = n[1], slope = hypot(half, height);
     double x = fmax(fabs(p[0]), fabs(p[2])) - half, z = fmin(fabs(p[0]), fabs(p[2])) - half;
     double above = (x * height + p[1] * half) / slope, u = (p[1] * height - x * half) / slope;
+
     if (p[1] > 0 && above < 0) {
         return -fmin(p[1], -above);
     }
@@ -170,6 +183,7 @@ static double pyramid(const double p[3], const double *n)
 static struct bounds pyramid_box(const double *n)
 {
     struct bounds box = bounds_centred(n[0] / 2, 0, n[0] / 2);
+
     box.high[1] = n[1];
     return box;
 }
@@ -182,6 +196,7 @@ static double rhombus(const double p[3], const double *n)
     double t = clamp((z * b - x * a) / (a * a + b * b), 0, 1);
     double edge = hypot(x + t * a, z - t * b);
     bool inside = x * b + z * a < 0;
+
     return corner((inside ? -edge : edge) - n[3], fabs(p[1]) - n[2] / 2);
 }
 
@@ -194,6 +209,7 @@ static struct bounds rhombus_box(const double *n)
 static double segment_square(const double p[3], const double *a, const double *b)
 {
     double w[3], e[3];
+
     for (int i = 0; i < 3; i++) {
         w[i] = p[i] - a[i];
         e[i] = b[i] - a[i];
@@ -210,6 +226,7 @@ static double segment_square(const double p[3], const double *a, const double *b
 static double triangle_square(const double p[3], const double *a, const double *b, const double *c)
 {
     double w[3], u[3], v[3], across[3];
+
     for (int i = 0; i < 3; i++) {
         w[i] = p[i] - a[i];
         u[i] = b[i] - a[i];
@@ -232,6 +249,7 @@ static double triangle_square(const double p[3], const double *a, const double *
 static struct bounds points_box(const double *points, int count, double around)
 {
     struct bounds box = bounds_empty();
+
     for (int i = 0; i < 3 * count; i++) {
         box.low[i % 3] = fmin(box.low[i % 3], points[i] - around);
         box.high[i % 3] = fmax(box.high[i % 3], points[i] + around);
@@ -252,6 +270,7 @@ static struct bounds triangle_box(const double *n)
 static double quad(const double p[3], const double *n)
 {
     double first = triangle_square(p, n, n + 3, n + 6);
+
     return sqrt(fmin(first, triangle_square(p, n, n + 6, n + 9))) - n[12];
 }
 

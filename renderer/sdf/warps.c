@@ -27,6 +27,7 @@ static double twist_radius(const struct bounds *child)
 static double twist_lipschitz(double rate, double radius)
 {
     double a = fabs(rate) * radius;
+
     return (a + sqrt(a * a + 4)) / 2;
 }
 
@@ -43,6 +44,7 @@ static struct bounds twist_box(const double *params, const struct bounds *child)
 {
     struct bounds out = *child;
     double radius = twist_radius(child);
+
     out.low[0] = out.low[2] = -radius;
     out.high[0] = out.high[2] = radius;
     out.stretch *= twist_lipschitz(params[0], radius);
@@ -54,6 +56,7 @@ static void twist_map(const double p[3], const double *n, double out[3])
     double inward = fmin(n[RADIUS] / fmax(hypot(p[0], p[2]), 1e-30), 1);
     double x = p[0] * inward, z = p[2] * inward;
     double c = cos(n[RATE] * p[1]), s = sin(n[RATE] * p[1]);
+
     out[0] = c * x - s * z;
     out[1] = p[1];
     out[2] = s * x + c * z;
@@ -89,6 +92,7 @@ static struct bounds bend_box(const double *params, const struct bounds *child)
 {
     struct bounds out = *child;
     double radius = bend_radius(child);
+
     out.low[0] = out.low[1] = -radius;
     out.high[0] = out.high[1] = radius;
     out.stretch *= bend_lipschitz(params[0], radius);
@@ -100,6 +104,7 @@ static void bend_map(const double p[3], const double *n, double out[3])
     double inward = fmin(n[RADIUS] / fmax(hypot(p[0], p[1]), 1e-30), 1);
     double x = p[0] * inward, y = p[1] * inward;
     double c = cos(n[RATE] * x), s = sin(n[RATE] * x);
+
     out[0] = c * x + s * y;
     out[1] = c * y - s * x;
     out[2] = p[2];
@@ -122,6 +127,7 @@ enum { AMPLITUDE = 0, PER_FACTOR = 3, FREQUENCY = 4 };
 static double offset_lipschitz(const double *params)
 {
     double a[3], x[3] = {1, 1, 1}, square = 0;
+
     for (int i = 0; i < 3; i++) {
         a[i] = fabs(params[i] * params[3 + i]);
     }
@@ -157,6 +163,7 @@ static void offset_prepare(const double *params, const struct bounds *child, dou
 static struct bounds offset_box(const double *params, const struct bounds *child)
 {
     struct bounds out = *child;
+
     for (int i = 0; i < 3; i++) {
         out.low[i] -= fabs(params[i]);
         out.high[i] += fabs(params[i]);
@@ -206,6 +213,7 @@ static void displace_prepare(const double *params, const struct bounds *child, d
 static double displace_after(double d, const double p[3], const double *n)
 {
     double waves = sin(n[0] * p[0]) * sin(n[1] * p[1]) * sin(n[2] * p[2]);
+
     return fmax((d + n[3] * waves) * n[4], d - n[3]);
 }
 
@@ -219,6 +227,7 @@ static void noise_prepare(const double *params, const struct bounds *child, doub
     (void)child;
     double amplitude = params[0], octaves = params[2], first = amplitude / noise_greatest(octaves);
     double slope = first * params[1] * noise_slope(octaves);
+
     out_n[NOISE_FREQUENCY] = params[1];
     out_n[FIRST] = first * scale;
     out_n[OCTAVES] = octaves;
@@ -235,6 +244,7 @@ static double noise_after(double d, const double p[3], const double *n)
                          n[NOISE_FREQUENCY] * p[2]};
     int octaves = d < n[FAR_OFF] ? (int)n[OCTAVES] : 0;
     double g = n[FIRST] * noise_octaves(q, octaves, (uint32_t)n[SEED]);
+
     return fmax((d + g) * n[PER_NOISE], d - n[GREATEST]);
 }
 

@@ -56,6 +56,7 @@ static void write_number(FILE *out, enum base base, char argument, const char *p
                                           [BASE_INT] = {"int(floatBitsToUint(", "))"},
                                           [BASE_UINT] = {"floatBitsToUint(", ")"},
                                           [BASE_BOOL] = {"(floatBitsToUint(", ") != 0u)"}};
+
     fprintf(out, "%s%c%s%s", rows[base][0], argument, part, rows[base][1]);
 }
 
@@ -66,6 +67,7 @@ static void write_argument(FILE *out, const struct call *call, int i)
     const char name = (char)('a' + i);
     const bool one =
         call->n == 1 || base != call->base || (call->row->family == FAMILY_REFRACT && i == 2);
+
     if (call->row->family == FAMILY_JET) {
         write_jet_argument(out, name, call->row->sizes[1 + i]);
     } else if (!is_whole(call->row)) {
@@ -88,6 +90,7 @@ static void write_argument(FILE *out, const struct call *call, int i)
 static void write_value(FILE *out, const struct call *call)
 {
     const char *text = call->row->glsl ? call->row->glsl : call->row->name;
+
     if (!strchr(text, '$')) {
         fprintf(out, "%s(", text);
         for (int i = 0; i < call->row->arguments; i++) {
@@ -150,6 +153,7 @@ static void write_function(FILE *out, const struct call *call)
                                         [BASE_BOOL] = "uintBitsToFloat(bits_of_bool("};
     const enum base back = result_base(call);
     char type[8] = "float", result[TYPE_NAME_BYTES];
+
     if (call->row->family == FAMILY_JET) {
         snprintf(type, sizeof type, "mat3");
     } else if (is_whole(call->row)) {
@@ -211,6 +215,7 @@ static void sizes_of(const struct builtin *row, int *out_first, int *out_last)
         row->family == FAMILY_CROSS || row->family == FAMILY_PLACE || row->family == FAMILY_OCTAVES;
     const bool of_one = row->family == FAMILY_SCALAR || row->family == FAMILY_SHAPE ||
                         row->family == FAMILY_REFRACT;
+
     *out_first = !is_whole(row) || of_one ? 1 : of_three ? 3 : 2;
     *out_last = !is_whole(row) ? 1 : of_three ? 3 : 4;
     if (row->family == FAMILY_JET) {

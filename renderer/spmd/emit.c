@@ -9,6 +9,7 @@
 const char *emit_function_name(struct emit *e, const struct function *function)
 {
     int before = 0;
+
     for (const struct function *f = function->overload; f; f = f->overload) {
         before++;
     }
@@ -20,6 +21,7 @@ static void head_parameter(struct emit *e, const struct variable *p)
 {
     struct variable named = *p;
     struct name unnamed = {.text = "unnamed"};
+
     named.name = p->name ? p->name : &unnamed;
     struct value value = emit_variable(e, &named);
     for (int i = 0; i < value.count; i++) {
@@ -37,6 +39,7 @@ void emit_head(struct emit *e, const struct function *function, const char *end)
 {
     const struct type result = function->result;
     const int count = spmd_components(e->tree, result);
+
     fprintf(e->out, "static inline %s %s(struct lanes *c, vb m",
             count == 1 ? emit_type(spmd_base(e->tree, result, 0), function->varying) : "void",
             emit_function_name(e, function));
@@ -72,6 +75,7 @@ static void copy_parameters(struct emit *e, const struct function *function, boo
 static void emit_function(struct emit *e, struct function *function)
 {
     const int count = spmd_components(e->tree, function->result);
+
     e->function = function;
     e->scope = function->scope;
     e->temps = 0;
@@ -107,6 +111,7 @@ static void emit_list(struct emit *e, struct stmt *stmt)
 static void emit_declaration(struct emit *e, struct stmt *stmt)
 {
     struct variable *variable = stmt->variable;
+
     if (!variable) {
         emit_list(e, stmt->body);
         return;
@@ -132,6 +137,7 @@ static void emit_declaration(struct emit *e, struct stmt *stmt)
 static void emit_side(struct emit *e, struct stmt *stmt, const char *mask, int scope)
 {
     const int before = e->scope;
+
     e->scope = scope;
     emit_line(e, "if (lanes_any(%s)) {\nvb m = %s;", mask, mask);
     emit_statement(e, stmt);
@@ -142,6 +148,7 @@ static void emit_side(struct emit *e, struct stmt *stmt, const char *mask, int s
 static void emit_if(struct emit *e, struct stmt *stmt)
 {
     const struct component condition = emit_value(e, stmt->expr).at[0];
+
     if (!stmt->varying) {
         emit_line(e, "if (%s) {", condition.text);
         emit_statement(e, stmt->body);
@@ -168,6 +175,7 @@ static void emit_for(struct emit *e, struct stmt *stmt)
 {
     const struct emit outer = *e;
     const int label = e->labels++;
+
     e->loop = label;
     e->loop_varying = stmt->varying;
     if (stmt->varying) {
@@ -217,6 +225,7 @@ static void emit_leave(struct emit *e, const struct stmt *stmt)
 {
     const bool ends = stmt->kind == STMT_BREAK;
     const char *kept = ends ? "gone" : "again";
+
     if (e->loop_varying) {
         emit_line(e, "%s_%d |= m;\nm = vb_zero;", kept, e->loop);
     }
@@ -231,6 +240,7 @@ static void emit_return(struct emit *e, struct stmt *stmt)
 {
     const struct function *f = e->function;
     struct value value = stmt->expr ? emit_value(e, stmt->expr) : (struct value){0};
+
     for (int i = 0; i < spmd_components(e->tree, f->result) && stmt->expr; i++) {
         const enum base base = spmd_base(e->tree, f->result, i);
         struct component x = emit_convert(e, emit_value_at(&value, i), base);
@@ -304,6 +314,7 @@ static struct emit begin(struct tree *tree, const char *const *entries, size_t c
 bool spmd_emit(struct tree *tree, const char *const *entries, size_t count, FILE *out)
 {
     struct emit e = begin(tree, entries, count, out);
+
     for (struct function *f = tree->called; f && e.ok; f = f->next_called) {
         if (f->body) {
             emit_function(&e, f);
@@ -326,6 +337,7 @@ static void emit_sizes(struct emit *e)
 bool spmd_emit_header(struct tree *tree, const char *const *entries, size_t count, FILE *out)
 {
     struct emit e = begin(tree, entries, count, out);
+
     emit_sizes(&e);
     emit_globals(&e);
     for (struct function *f = tree->called; f && e.ok; f = f->next_called) {

@@ -53,6 +53,7 @@ enum { ARGS_MAX = 4 };
 static int widest(const struct value *args, int count)
 {
     int most = 1;
+
     for (int i = 0; i < count; i++) {
         most = args[i].count > most ? args[i].count : most;
     }
@@ -62,6 +63,7 @@ static int widest(const struct value *args, int count)
 static struct value each(struct emit *e, const char *name, const struct value *args, int count)
 {
     struct value out = emit_values(e, widest(args, count));
+
     for (int i = 0; i < out.count; i++) {
         struct component of[ARGS_MAX];
         for (int k = 0; k < count; k++) {
@@ -75,6 +77,7 @@ static struct value each(struct emit *e, const char *name, const struct value *a
 static struct component dot(struct emit *e, const struct value *a, const struct value *b)
 {
     struct component sum = emit_operator(e, OP_MULTIPLY, a->at[0], b->at[0]);
+
     for (int i = 1; i < a->count; i++) {
         sum = emit_operator(e, OP_ADD, sum, emit_operator(e, OP_MULTIPLY, a->at[i], b->at[i]));
     }
@@ -84,6 +87,7 @@ static struct component dot(struct emit *e, const struct value *a, const struct 
 static struct value one(struct emit *e, struct component x)
 {
     struct value out = emit_values(e, 1);
+
     out.at[0] = x;
     return out;
 }
@@ -92,6 +96,7 @@ static struct value one(struct emit *e, struct component x)
 static struct value both(struct emit *e, enum op op, const struct value *a, const struct value *b)
 {
     struct value out = emit_values(e, a->count > b->count ? a->count : b->count);
+
     for (int i = 0; i < out.count; i++) {
         out.at[i] = emit_operator(e, op, emit_value_at(a, i), emit_value_at(b, i));
     }
@@ -101,6 +106,7 @@ static struct value both(struct emit *e, enum op op, const struct value *a, cons
 static struct value length(struct emit *e, const struct value *args)
 {
     struct component square = dot(e, &args[0], &args[0]);
+
     return args[0].count == 1 ? one(e, emit_each(e, "abs", args[0].at, 1))
                               : one(e, emit_each(e, "sqrt", &square, 1));
 }
@@ -108,6 +114,7 @@ static struct value length(struct emit *e, const struct value *args)
 static struct value distance(struct emit *e, const struct value *args)
 {
     struct value apart = both(e, OP_SUBTRACT, &args[0], &args[1]);
+
     return length(e, &apart);
 }
 
@@ -120,6 +127,7 @@ static struct value normalize(struct emit *e, const struct value *args)
 {
     struct component square = dot(e, &args[0], &args[0]);
     struct value by = one(e, emit_each(e, "inversesqrt", &square, 1));
+
     return both(e, OP_MULTIPLY, &args[0], &by);
 }
 
@@ -128,6 +136,7 @@ static struct value reflect(struct emit *e, const struct value *args)
     const struct component two = {"2.0f", BASE_FLOAT, false};
     struct value by = one(e, emit_operator(e, OP_MULTIPLY, two, dot(e, &args[1], &args[0])));
     struct value back = both(e, OP_MULTIPLY, &by, &args[1]);
+
     return both(e, OP_SUBTRACT, &args[0], &back);
 }
 
@@ -135,6 +144,7 @@ static struct value cross(struct emit *e, const struct value *args)
 {
     const struct component *a = args[0].at, *b = args[1].at;
     struct value out = emit_values(e, 3);
+
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         out.at[i] = emit_operator(e, OP_SUBTRACT, emit_operator(e, OP_MULTIPLY, a[j], b[k]),
@@ -160,6 +170,7 @@ static struct value mix(struct emit *e, const struct value *args)
 static struct value together(struct emit *e, const struct value *args, enum op op)
 {
     struct component sum = args[0].at[0];
+
     for (int i = 1; i < args[0].count; i++) {
         sum = emit_operator(e, op, sum, args[0].at[i]);
     }
@@ -169,6 +180,7 @@ static struct value together(struct emit *e, const struct value *args, enum op o
 static struct value bits(struct emit *e, const struct value *args, enum base to)
 {
     struct value out = emit_values(e, args[0].count);
+
     for (int i = 0; i < out.count; i++) {
         struct component x = args[0].at[i];
         out.at[i] = emit_temp(e, to, x.varying, x.varying ? "(%s)%s" : "%s_of_bits(%s)",
@@ -181,6 +193,7 @@ static struct value bits(struct emit *e, const struct value *args, enum base to)
 static struct value look_up(struct emit *e, const struct value *args, const char *function)
 {
     struct value out = emit_values(e, 4);
+
     emit_line(e, "vf t%d[4];", e->temps);
     emit_line(e, "%s(c, %s, m, %s, %s, %s, t%d);", function, args[0].at[0].text,
               emit_spread(e, args[1].at[0]).text, emit_spread(e, args[1].at[1]).text,
@@ -205,6 +218,7 @@ static struct value texel_fetch(struct emit *e, const struct value *args)
 static struct value texture_size(struct emit *e, const struct value *args)
 {
     struct value out = emit_values(e, 2);
+
     for (int i = 0; i < 2; i++) {
         out.at[i] =
             emit_temp(e, BASE_INT, false, "lanes_texture_size(c, %s, %d)", args[0].at[0].text, i);
@@ -216,6 +230,7 @@ static struct value param(struct emit *e, const struct value *args, const char *
 {
     struct value out = emit_values(e, 4);
     const struct component at = args[0].at[0];
+
     for (int i = 0; i < 4; i++) {
         out.at[i] =
             at.varying ? emit_temp(e, BASE_FLOAT, true, "lanes_gather(c->%s, 4 * %s + %d, m)",
@@ -271,6 +286,7 @@ struct value emit_builtin(struct emit *e, struct expr *expr)
     const struct spmd_builtin *builtin = spmd_builtin_find(expr->name->text);
     struct value args[ARGS_MAX];
     int count = 0;
+
     for (struct expr *arg = expr->args; arg && count < ARGS_MAX; arg = arg->next) {
         args[count++] = emit_value(e, arg);
     }

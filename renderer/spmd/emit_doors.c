@@ -20,6 +20,7 @@ static void door_head(struct emit *e, const struct function *f, const char *end)
 {
     const int count = spmd_components(e->tree, f->result);
     int i = 0;
+
     fprintf(e->out, "static %s %s(struct lanes *c, vb m",
             count == 1 ? emit_type(spmd_base(e->tree, f->result, 0), true) : "void", name_of(e, f));
     for (const struct variable *p = f->parameters; p; p = p->next, i++) {
@@ -47,6 +48,7 @@ static void emit_way_in(struct emit *e, const struct function *f)
     const int count = spmd_components(e->tree, f->result);
     const char *list = "c, m";
     int at = 0;
+
     door_head(e, f, "\n{");
     for (const struct variable *p = f->parameters; p; p = p->next, at++) {
         const int parts = spmd_components(e->tree, p->type);
@@ -95,6 +97,7 @@ static void emit_way_out(struct emit *e, const struct function *f)
     const int count = spmd_components(e->tree, f->result);
     const char *list = "c, m";
     int at = 0;
+
     emit_head(e, f, "\n{");
     for (const struct variable *p = f->parameters; p; p = p->next, at++) {
         const struct value value = emit_variable(e, p);

@@ -10,6 +10,7 @@ const char *emit_text(struct emit *e, const char *format, ...)
 {
     char *text = NULL;
     va_list args;
+
     va_start(args, format);
     int length = vasprintf(&text, format, args);
     va_end(args);
@@ -25,6 +26,7 @@ const char *emit_text(struct emit *e, const char *format, ...)
 void emit_line(struct emit *e, const char *format, ...)
 {
     va_list args;
+
     va_start(args, format);
     vfprintf(e->out, format, args);
     va_end(args);
@@ -71,6 +73,7 @@ struct component emit_temp(struct emit *e, enum base base, bool varying, const c
 {
     va_list args;
     const char *name = emit_text(e, "t%d", e->temps++);
+
     fprintf(e->out, "%s %s = ", emit_type(base, varying), name);
     va_start(args, format);
     vfprintf(e->out, format, args);
@@ -134,6 +137,7 @@ struct component emit_operator(struct emit *e, enum op op, struct component a, s
     const enum base base = a.base == BASE_FLOAT || b.base == BASE_FLOAT ? BASE_FLOAT
                            : a.base == BASE_UINT || b.base == BASE_UINT ? BASE_UINT
                                                                         : a.base;
+
     if (op != OP_SHIFT_LEFT && op != OP_SHIFT_RIGHT) {
         a = emit_convert(e, a, base);
         b = emit_convert(e, b, base);
@@ -155,6 +159,7 @@ struct component emit_each(struct emit *e, const char *name, const struct compon
     struct component of[4];
     bool varying = false;
     enum base base = args[0].base;
+
     for (int i = 0; i < count; i++) {
         varying |= args[i].varying;
         base = args[i].base == BASE_FLOAT ? BASE_FLOAT : base;

@@ -10,6 +10,7 @@
 struct value emit_variable(struct emit *e, const struct variable *variable)
 {
     struct value out = emit_values(e, spmd_components(e->tree, variable->type));
+
     for (int i = 0; i < out.count; i++) {
         const enum base base = spmd_base(e->tree, variable->type, i);
         out.at[i] =
@@ -24,6 +25,7 @@ static int block_components(struct emit *e, const char *path, struct type type,
                             struct component *out)
 {
     int count = 0;
+
     if (type.base == BASE_STRUCT) {
         for (const struct variable *v = e->tree->structs[type.rows].members; v; v = v->next) {
             count += block_components(e, emit_text(e, "%s.%s", path, v->name->text), v->type,
@@ -62,6 +64,7 @@ static const char *block_path(struct emit *e, struct expr *expr)
 static struct place block_place(struct emit *e, const struct expr *expr, const char *path)
 {
     struct value value = emit_values(e, spmd_components(e->tree, expr->type));
+
     block_components(e, path, expr->type, value.at);
     return (struct place){.value = value};
 }
@@ -70,6 +73,7 @@ static struct place variable_place(struct emit *e, const struct expr *expr)
 {
     struct variable *variable = expr->variable;
     struct place out = {.variable = variable};
+
     if (variable->storage == STORAGE_GLOBAL) {
         out.value = emit_variable(e, variable);
         for (int i = 0; i < out.value.count; i++) {
@@ -91,6 +95,7 @@ static struct place part_of(struct emit *e, struct place of, int first, int coun
 {
     struct value part = emit_values(e, count);
     (void)e;
+
     memcpy(part.at, of.value.at + first, (size_t)count * sizeof *part.at);
     of.value = part;
     return of;
@@ -101,6 +106,7 @@ static struct place index_place(struct emit *e, struct expr *expr)
     struct place of = emit_place(e, expr->a);
     const int count = spmd_components(e->tree, expr->type);
     int at;
+
     if (expr->a->type.count == 0) {
         if (!spmd_constant(e->tree, expr->b, &at)) {
             e->ok = false;
@@ -126,6 +132,7 @@ struct place emit_place(struct emit *e, struct expr *expr)
 {
     const char *path = block_path(e, expr);
     int first;
+
     if (path) {
         return block_place(e, expr, path);
     }
@@ -203,6 +210,7 @@ static struct value multiply_matrix(struct emit *e, const struct value *m, const
 {
     const int rows = m->count / v->count;
     struct value out = emit_values(e, rows);
+
     for (int r = 0; r < rows; r++) {
         out.at[r] = emit_operator(e, OP_MULTIPLY, m->at[r], v->at[0]);
         for (int i = 1; i < v->count; i++) {
@@ -217,6 +225,7 @@ static struct value multiply_by_matrix(struct emit *e, const struct value *v, co
 {
     const int columns = m->count / v->count;
     struct value out = emit_values(e, columns);
+
     for (int i = 0; i < columns; i++) {
         const struct component *column = m->at + i * v->count;
         out.at[i] = emit_operator(e, OP_MULTIPLY, v->at[0], column[0]);
@@ -232,6 +241,7 @@ static struct value operate(struct emit *e, enum op op, const struct value *a,
                             const struct value *b)
 {
     struct value out = emit_values(e, a->count > b->count ? a->count : b->count);
+
     for (int i = 0; i < out.count; i++) {
         out.at[i] = emit_operator(e, op, emit_value_at(a, i), emit_value_at(b, i));
     }
@@ -243,6 +253,7 @@ static struct value emit_short(struct emit *e, struct expr *expr)
 {
     struct value out = emit_values(e, 1);
     const struct component a = emit_value(e, expr->a).at[0];
+
     out.at[0] = emit_temp(e, BASE_BOOL, false, "%s", a.text);
     emit_line(e, "if (%s%s) {", expr->op == OP_OR ? "!" : "", out.at[0].text);
     const struct component b = emit_value(e, expr->b).at[0];
@@ -273,6 +284,7 @@ static struct value emit_binary(struct emit *e, struct expr *expr)
 static struct value emit_unary(struct emit *e, struct expr *expr)
 {
     struct value a = emit_value(e, expr->a), out = emit_values(e, a.count);
+
     for (int i = 0; i < out.count; i++) {
         const struct component x = a.at[i];
         const char *op = expr->op == OP_NOT && x.varying ? "~" : tree_op_text(expr->op);
@@ -285,6 +297,7 @@ static struct value emit_assign(struct emit *e, struct expr *expr)
 {
     struct value value = emit_value(e, expr->b);
     struct place place = emit_place(e, expr->a);
+
     if (expr->op != OP_NONE) {
         struct value before = load(e, &place);
         value = operate(e, expr->op, &before, &value);
@@ -298,6 +311,7 @@ static struct value emit_step(struct emit *e, struct expr *expr)
     struct place place = emit_place(e, expr->a);
     struct value before = load(e, &place), one = emit_values(e, 1), kept = emit_values(e, 1);
     const struct component x = before.at[0];
+
     kept.at[0] = emit_temp(e, x.base, x.varying, "%s", x.text);
     one.at[0] = (struct component){"1", BASE_INT, false};
     emit_store(e, &place, operate(e, expr->op, &kept, &one));
@@ -309,6 +323,7 @@ static struct value choose_one(struct emit *e, struct expr *expr, struct compone
 {
     struct value out = emit_values(e, spmd_components(e->tree, expr->type));
     struct expr *const sides[] = {expr->b, expr->c};
+
     for (int i = 0; i < out.count; i++) {
         out.at[i] = (struct component){emit_text(e, "t%d", e->temps++),
                                        spmd_base(e->tree, expr->type, i), expr->varying};
@@ -334,6 +349,7 @@ static struct value choose_one(struct emit *e, struct expr *expr, struct compone
 static struct value emit_choice(struct emit *e, struct expr *expr)
 {
     struct component condition = emit_value(e, expr->a).at[0];
+
     if (!condition.varying) {
         return choose_one(e, expr, condition);
     }
@@ -355,6 +371,7 @@ static struct value emit_literal(struct emit *e, const struct expr *expr)
     const double number = expr->value[0];
     const enum base base = (enum base)expr->type.base;
     char digits[40];
+
     snprintf(digits, sizeof digits, "%.9g", number);
     const char *dot = strpbrk(digits, ".e") ? "" : ".0";
     const char *text = base == BASE_FLOAT  ? emit_text(e, "%s%sf", digits, dot)
@@ -370,6 +387,7 @@ static struct value emit_construct(struct emit *e, struct expr *expr)
 {
     struct value out = emit_values(e, spmd_components(e->tree, expr->type)), arg = {0};
     int count = 0;
+
     if (expr->type.count > 0) {
         emit_fail(e, expr->at, "an array made here");
         return out;
@@ -396,6 +414,7 @@ struct value emit_call(struct emit *e, struct expr *expr)
     int out_count = 0;
     const char *list = "c, m";
     struct expr *arg = expr->args;
+
     for (const struct variable *p = f->parameters; p; p = p->next, arg = arg->next) {
         struct value value = p->direction == DIRECTION_OUT ? (struct value){0} : emit_value(e, arg);
         const int count = spmd_components(e->tree, p->type);
@@ -443,6 +462,7 @@ struct value emit_call(struct emit *e, struct expr *expr)
 static struct value emit_name(struct emit *e, struct expr *expr)
 {
     const struct variable *v = expr->variable;
+
     if (v->storage == STORAGE_GLOBAL && v->read_only) {
         for (struct stmt *stmt = e->tree->top; stmt; stmt = stmt->next) {
             for (struct stmt *one = stmt->kind == STMT_DECLARE ? stmt->body : NULL; one;
@@ -460,6 +480,7 @@ static struct value emit_name(struct emit *e, struct expr *expr)
 struct value emit_value(struct emit *e, struct expr *expr)
 {
     struct place place;
+
     switch (expr->kind) {
     case EXPR_LITERAL:
         return emit_literal(e, expr);

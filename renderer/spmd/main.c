@@ -37,6 +37,7 @@ static void write_kernel(FILE *out, const struct node_type *type, uint32_t choic
 #undef X
     };
     char name[128];
+
     snprintf(name, sizeof name, "kernel_%s_%s_%u", kinds[kernel], type->record.name, choices);
     if (table) {
         fprintf(out, "KERNEL_ROW(%d, %u, %s, spmd_%s)\n", type->number, choices, kinds[kernel],
@@ -85,6 +86,7 @@ static char *read_all(const char *path)
     FILE *in = fopen(path, "r");
     char *text = malloc(1 << 22);
     size_t length = in && text ? fread(text, 1, (1 << 22) - 1, in) : 0;
+
     if (!in || !text) {
         fprintf(stderr, "spmd: cannot read %s\n", path);
         exit(1);
@@ -97,6 +99,7 @@ static char *read_all(const char *path)
 static const char *name_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
+
     return slash ? slash + 1 : path;
 }
 
@@ -104,6 +107,7 @@ static int write_text(const char *file, const char *more)
 {
     struct error err = {0};
     struct shader_text text;
+
     struct glsl_file files[sizeof own / sizeof own[0] + 3];
     size_t length;
     FILE *kernels = open_memstream(&kernel_text, &length);
@@ -130,6 +134,7 @@ static int write_c(const char *file, bool header, const char *const *entries, si
     struct error err = {0};
     struct tree tree;
     char *text = read_all(file);
+
     tree_init(&tree, &err);
     tree.whole = true;
     /* "kernel_*": all functions whose names begin so. */

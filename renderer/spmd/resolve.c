@@ -22,6 +22,7 @@ static bool resolve_function(struct resolver *r, struct function *function);
 int spmd_components(const struct tree *tree, struct type type)
 {
     int count = 0;
+
     if (type.base == BASE_VOID) {
         return 0;
     }
@@ -81,6 +82,7 @@ static bool same(struct type a, struct type b)
 bool spmd_constant(struct tree *tree, const struct expr *expr, int *out)
 {
     int a, b;
+
     if (expr->kind == EXPR_LITERAL) {
         *out = (int)expr->value[0];
         return true;
@@ -98,6 +100,7 @@ bool spmd_constant(struct tree *tree, const struct expr *expr, int *out)
 static bool declare(struct resolver *r, struct variable *variable)
 {
     int length = 0;
+
     if (!variable->name) {
         return true;
     }
@@ -132,6 +135,7 @@ static int fits(const struct function *function, const struct expr *call)
 {
     int conversions = 0;
     const struct expr *arg = call->args;
+
     if (function->parameter_count != call->arg_count) {
         return -1;
     }
@@ -153,6 +157,7 @@ static bool resolve_call_of(struct resolver *r, struct expr *expr)
 {
     struct function *best = NULL;
     int least = 0;
+
     for (struct function *f = expr->name->functions; f; f = f->overload) {
         int conversions = fits(f, expr);
         if (conversions >= 0 && (!best || conversions < least)) {
@@ -172,6 +177,7 @@ static struct type builtin_type(const struct spmd_builtin *builtin, const struct
 {
     struct type most = call->args ? call->args->type : type_vector(BASE_FLOAT, 1);
     const struct type first = most;
+
     for (const struct expr *arg = call->args; arg; arg = arg->next) {
         most = arg->type.rows > most.rows ? arg->type : most;
         most =
@@ -233,6 +239,7 @@ static bool resolve_binary(struct resolver *r, struct expr *expr)
 {
     struct type a = expr->a->type, b = expr->b->type;
     struct type wide = b.rows * b.columns > a.rows * a.columns ? b : a;
+
     if (expr->op >= OP_LESS && expr->op <= OP_XOR) {
         expr->type = type_vector(BASE_BOOL, 1);
         return true;
@@ -256,6 +263,7 @@ static bool resolve_binary(struct resolver *r, struct expr *expr)
 static int letter_of(char c)
 {
     static const char *const sets[] = {"xyzw", "rgba", "stpq"};
+
     for (int i = 0; i < 3; i++) {
         const char *at = strchr(sets[i], c);
         if (at) {
@@ -270,6 +278,7 @@ static bool resolve_member(struct resolver *r, struct expr *expr)
     struct type of = expr->a->type;
     const char *letters = expr->name->text;
     int first;
+
     if (of.base == BASE_STRUCT) {
         const struct variable *member = spmd_member(r->tree, of, expr->name, &first);
         if (!member) {
@@ -299,6 +308,7 @@ static bool resolve_member(struct resolver *r, struct expr *expr)
 static bool resolve_parts(struct resolver *r, struct expr *expr)
 {
     struct expr *parts[] = {expr->a, expr->b, expr->c};
+
     for (int i = 0; i < 3; i++) {
         if (parts[i] && !resolve_value(r, parts[i])) {
             return false;
@@ -380,6 +390,7 @@ static bool resolve_statement(struct resolver *r, struct stmt *stmt)
 {
     const int known = r->count;
     bool ok = true;
+
     if (stmt->kind == STMT_DECLARE) {
         return resolve_declaration(r, stmt);
     }
@@ -439,6 +450,7 @@ static bool resolve_function(struct resolver *r, struct function *function)
 static bool same_parameters(const struct function *a, const struct function *b)
 {
     const struct variable *q = b->parameters;
+
     for (const struct variable *p = a->parameters; p && q; p = p->next, q = q->next) {
         if (!same(p->type, q->type)) {
             return false;
@@ -497,6 +509,7 @@ bool spmd_is_entry(const struct function *function, const char *const *entries, 
 bool spmd_resolve(struct tree *tree, const char *const *entries, size_t count)
 {
     struct resolver r = {.tree = tree};
+
     if (!resolve_top(&r)) {
         return false;
     }

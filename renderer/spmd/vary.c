@@ -42,6 +42,7 @@ static void assign_to(struct vary *v, const struct expr *place, bool varying)
 {
     struct variable *variable = root_of(place);
     bool index = false;
+
     for (const struct expr *e = place; e->kind != EXPR_VARIABLE; e = e->a) {
         index |= e->kind == EXPR_INDEX && e->b->varying;
     }
@@ -52,6 +53,7 @@ static void vary_call(struct vary *v, struct expr *expr)
 {
     struct function *f = expr->function;
     struct expr *arg = expr->args;
+
     for (struct variable *p = f->parameters; p; p = p->next, arg = arg->next) {
         if (p->direction == DIRECTION_IN) {
             mark(v, &p->varying, arg->varying);
@@ -67,6 +69,7 @@ static void vary_value(struct vary *v, struct expr *expr)
 {
     struct expr *parts[] = {expr->a, expr->b, expr->c};
     bool any = false;
+
     for (int i = 0; i < 3; i++) {
         if (parts[i]) {
             vary_value(v, parts[i]);
@@ -109,6 +112,7 @@ static int scope_of(struct vary *v, int *scope)
 static void vary_if(struct vary *v, struct stmt *stmt)
 {
     const struct vary before = *v;
+
     vary_value(v, stmt->expr);
     mark(v, &stmt->varying, stmt->expr->varying);
     if (stmt->varying) {
@@ -128,6 +132,7 @@ static void vary_if(struct vary *v, struct stmt *stmt)
 static void vary_for(struct vary *v, struct stmt *stmt)
 {
     const struct vary before = *v;
+
     if (stmt->varying) {
         v->apart = true;
         v->scope = scope_of(v, &stmt->scope);
@@ -186,6 +191,7 @@ static void vary_statement(struct vary *v, struct stmt *stmt)
 static void vary_function(struct vary *all, struct function *function)
 {
     struct vary v = {.function = function, .scopes = all->scopes};
+
     v.scope = scope_of(&v, &function->scope);
     for (struct variable *p = function->parameters; p; p = p->next) {
         /* What lanes that returned have given must stay. */
@@ -201,6 +207,7 @@ static void vary_function(struct vary *all, struct function *function)
 void spmd_vary(struct tree *tree, const char *const *entries, size_t count)
 {
     struct vary v = {.changed = true};
+
     for (struct stmt *stmt = tree->top; stmt; stmt = stmt->next) {
         for (struct stmt *one = stmt->variable ? stmt : stmt->body;
              one && stmt->kind == STMT_DECLARE; one = stmt->variable ? NULL : one->next) {

@@ -15,6 +15,7 @@ int algebra_command_run(bool (*ask)(struct algebra *algebra, const void *questio
     cJSON *answer = NULL;
     struct algebra *algebra = algebra_create(&err);
     const bool ok = algebra && ask(algebra, question, &answer, &err);
+
     if (algebra) {
         algebra_stop(algebra);
         algebra_destroy(algebra);

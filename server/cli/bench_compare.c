@@ -15,6 +15,7 @@ bool bench_draw(struct renderer *renderer, struct resident *resident, const stru
 {
     struct job *job = job_create(resident, desc, err);
     enum job_state state = JOB_FAILED;
+
     if (!job) {
         return false;
     }
@@ -37,6 +38,7 @@ bool bench_draw(struct renderer *renderer, struct resident *resident, const stru
 static void add_stages(cJSON *row, double *numbers, int rounds)
 {
     cJSON *stages = cJSON_AddObjectToObject(row, "stages_ms");
+
     for (int stage = 0; stage < FRAME_STAGES; stage++) {
         double ms = bench_quantile(numbers + (ptrdiff_t)stage * rounds, (size_t)rounds, 0.5);
         if (ms > 0) {
@@ -51,6 +53,7 @@ bool bench_medians(struct renderer *renderer, struct resident *resident,
     double *numbers = memory_alloc((size_t)rounds * (FRAME_STAGES + 1), sizeof *numbers);
     double *whole = numbers + (ptrdiff_t)FRAME_STAGES * rounds;
     bool ok = true;
+
     for (int i = -1; ok && i < rounds; i++) { /* the first one only warms up */
         struct job_times times = {0};
         int64_t start = clock_us();

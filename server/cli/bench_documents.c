@@ -17,6 +17,7 @@ char *bench_document(size_t nodes, size_t *out_length)
     static const char *const types[] = {"sphere", "box", "torus", "capsule"};
     char *text = NULL;
     FILE *out = open_memstream(&text, out_length);
+
     if (!out) {
         abort();
     }
@@ -51,6 +52,7 @@ static double ms_since(int64_t start)
 static double edit_us(struct scene *scene)
 {
     int64_t start = clock_us();
+
     for (size_t i = 0; i < EDITS; i++) {
         char text[128];
         size_t node = 2 + i * (scene->node_count - 2) / EDITS;
@@ -74,6 +76,7 @@ static cJSON *measure(size_t nodes, struct error *err)
     size_t before = mallinfo2().uordblks;
     int64_t start = clock_us();
     struct scene *scene = scene_parse(text, length, err);
+
     if (!scene) {
         free(text);
         cJSON_Delete(row);
@@ -106,6 +109,7 @@ static bool measure_drawn(const struct renderer_params *params, cJSON *row, stru
     struct renderer_params engine = *params;
     size_t length;
     char *text = bench_document(DRAWN_NODES, &length);
+
     engine.device.kind = DEVICE_NONE;
     engine.stage = RENDER_ENGINE;
     struct renderer *renderer = renderer_create(&engine, err);
@@ -122,6 +126,7 @@ cJSON *bench_documents(const struct renderer_params *params, struct error *err)
 {
     static const size_t sizes[] = {1000, 10000, 100000};
     cJSON *rows = cJSON_CreateArray();
+
     fprintf(stderr, "fieldcast: reading scenes of up to 100000 nodes\n");
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         cJSON *row = measure(sizes[i], err);

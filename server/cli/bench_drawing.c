@@ -48,6 +48,7 @@ static void answer(FILE *out, measurement *measure, const struct task *task)
 {
     struct error err = {0};
     cJSON *result = measure(task, &err);
+
     if (!result) {
         result = cJSON_CreateObject();
         cJSON_AddStringToObject(result, "place", err.place);
@@ -64,6 +65,7 @@ static cJSON *read_answer(FILE *in, struct error *err)
     size_t size = 0;
     ssize_t length = getdelim(&text, &size, '\0', in);
     cJSON *result = length > 0 ? json_parse(text, (size_t)length, err) : NULL;
+
     free(text);
     if (length <= 0) {
         error_set(err, ERROR_INTERNAL, "", "the process that measures died");
@@ -81,6 +83,7 @@ static cJSON *read_answer(FILE *in, struct error *err)
 static cJSON *in_child(measurement *measure, const struct task *task, struct error *err)
 {
     int ends[2];
+
     fflush(NULL);
     pid_t child = pipe(ends) == 0 ? fork() : -1;
     if (child < 0) {
@@ -105,6 +108,7 @@ static cJSON *in_child(measurement *measure, const struct task *task, struct err
 static cJSON *describe(const struct task *task, struct error *err)
 {
     struct renderer *renderer = renderer_create(task->params, err);
+
     if (!renderer) {
         return NULL;
     }
@@ -121,6 +125,7 @@ struct resident *bench_open(struct renderer *renderer, const struct embedded *ex
                             struct error *err)
 {
     struct scene *scene = scene_parse((const char *)example->bytes, example->length, err);
+
     if (scene) {
         local_render_give_example_file(renderer, scene);
     }
@@ -137,6 +142,7 @@ static cJSON *measure_first(const struct task *task, struct error *err)
     struct resident *other = NULL, *resident = NULL;
     cJSON *row = NULL;
     struct renderer *renderer = renderer_create(task->params, err);
+
     if (renderer) {
         other = resident_create(renderer, scene_create_empty(), 1);
     }
@@ -159,6 +165,7 @@ static cJSON *measure_compiling(const struct task *task, struct error *err)
 {
     const char *directory = getenv("TMPDIR");
     char *cache = NULL;
+
     if (asprintf(&cache, "%s/fieldcast-bench-XXXXXX", directory ? directory : "/tmp") < 0) {
         abort();
     }
@@ -192,6 +199,7 @@ static cJSON *measure_size(struct renderer *renderer, struct resident *resident,
                            const struct job_desc *desc, const struct task *task, struct error *err)
 {
     cJSON *row = cJSON_CreateObject();
+
     cJSON_AddNumberToObject(row, "width", desc->width);
     cJSON_AddNumberToObject(row, "height", desc->height);
     const int rounds = task->effort.rounds;
@@ -207,6 +215,7 @@ static cJSON *measure_encoders(const struct image *image, int rounds, struct err
 {
     cJSON *rows = cJSON_CreateArray();
     double *numbers = memory_alloc((size_t)rounds, sizeof *numbers);
+
     for (size_t c = 0; c < sizeof codecs / sizeof *codecs; c++) {
         size_t length = 0;
         for (int i = 0; i < rounds; i++) {
@@ -238,6 +247,7 @@ static bool add_pictures(struct renderer *renderer, struct resident *resident,
     struct job_desc desc = {.level = QUALITY_INTERACTIVE, .exact = true};
     struct image image = {0};
     cJSON *pictures = cJSON_AddArrayToObject(row, "pictures"), *encoders = NULL;
+
     for (size_t i = 0; i < SIZE_COUNT; i++) {
         desc.width = sizes[i].width / task->effort.scale_down;
         desc.height = sizes[i].height / task->effort.scale_down;
@@ -261,6 +271,7 @@ static cJSON *measure_pictures(const struct task *task, struct error *err)
     struct renderer *renderer = renderer_create(task->params, err);
     struct resident *resident = renderer ? bench_open(renderer, task->example, err) : NULL;
     bool ok = resident;
+
     if (ok) {
         cJSON_AddStringToObject(row, "example", task->example->path);
         cJSON_AddNumberToObject(row, "nodes", (double)resident_scene(resident)->node_count);
@@ -307,6 +318,7 @@ cJSON *bench_drawing(const struct renderer_params *params, const char *only,
                      const struct bench_effort *effort, struct error *err)
 {
     cJSON *rows = cJSON_CreateArray();
+
     for (size_t i = 0; i < examples_count; i++) {
         struct task task = {params, &examples_table[i], *effort};
         if (only && strcmp(only, task.example->path) != 0) {

@@ -14,6 +14,7 @@ enum { EDITS = 2000 };
 static int write_edit(char *out, size_t size, const struct node *node, int i)
 {
     const double *at = record_vector(&node->transform, "translation");
+
     return snprintf(out, size,
                     "[{\"op\":\"set\",\"at\":\"/nodes/%s/transform/translation\",\"value\":"
                     "[%.9g,%.9g,%.9g]}]",
@@ -24,6 +25,7 @@ static bool edit(struct resident *resident, const char *text, size_t length, str
 {
     cJSON *ops = json_parse(text, length, err);
     bool ok = ops && resident_edit(resident, ops, resident_revision(resident) + 1, err);
+
     cJSON_Delete(ops);
     return ok;
 }
@@ -33,6 +35,7 @@ bool bench_edits(struct resident *resident, cJSON *row, struct error *err)
     const struct node *root = resident_scene(resident)->root, *node = root;
     double *numbers = memory_alloc(EDITS, sizeof *numbers);
     bool ok = true;
+
     for (int i = 0; ok && i < EDITS; i++) {
         char text[256];
         const size_t length = (size_t)write_edit(text, sizeof text, node, i);

@@ -34,6 +34,7 @@ enum { FAMILIES = sizeof families / sizeof families[0] };
 static double next_place(uint64_t *state)
 {
     uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
+
     z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
     z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
     return (double)((z ^ z >> 31) >> 11) * 0x1p-53 * 2 - 1;
@@ -42,6 +43,7 @@ static double next_place(uint64_t *state)
 static void write_place(FILE *out, uint64_t *state)
 {
     const double x = next_place(state), y = next_place(state), z = next_place(state);
+
     fprintf(out, "\"transform\":{\"translation\":[%.6f,%.6f,%.6f]}", x, y, z);
 }
 
@@ -61,6 +63,7 @@ static void write_shape(FILE *out, uint64_t *state, double radius, int index)
 static void write_shapes(FILE *out, uint64_t *state, double radius, int count, bool nested)
 {
     const int part = nested && count > 10 ? count / 10 : count > 10 * OF_A_UNION ? OF_A_UNION : 1;
+
     fputs("{\"type\":\"union\",\"children\":[", out);
     for (int i = 0; i < count; i += part) {
         fputs(i > 0 ? "," : "", out);
@@ -77,6 +80,7 @@ static void write_instances(FILE *out, uint64_t *state, double radius, int count
 {
     const int instances = count / OF_A_MODEL;
     const double scale = 1 / cbrt(instances);
+
     fprintf(out, "{\"type\":\"union\",\"children\":[");
     for (int i = 0; i < instances; i++) {
         fprintf(out, "%s{\"type\":\"model\",\"params\":{\"model\":\"m\"},\"transform\":{",
@@ -134,6 +138,7 @@ static bool time_sizes(struct renderer *renderer, struct resident *const scenes[
     const int rounds = effort->rounds;
     double *times = memory_alloc((size_t)rounds * SIZES, sizeof *times);
     bool ok = true;
+
     for (int i = -1; ok && i < rounds; i++) { /* the first one only warms up */
         for (int k = 0; ok && k < SIZES; k++) {
             struct job_times stages;
@@ -153,6 +158,7 @@ static cJSON *row_of(const struct family *family, const double ms[SIZES])
 {
     cJSON *row = cJSON_CreateObject(), *of = cJSON_AddObjectToObject(row, "cpu_ms");
     cJSON *ratios = cJSON_AddObjectToObject(row, "ratio");
+
     cJSON_AddStringToObject(row, "family", family->name);
     for (int i = 0; i < SIZES; i++) {
         char name[16];
@@ -170,6 +176,7 @@ static cJSON *grow(struct renderer *renderer, const struct family *family,
     struct resident *scenes[SIZES] = {NULL};
     double ms[SIZES];
     bool ok = true;
+
     for (int i = 0; ok && i < SIZES; i++) {
         struct scene *scene = make_scene(family, sizes[i], err);
         scenes[i] = scene ? resident_create(renderer, scene, 1) : NULL;
@@ -186,6 +193,7 @@ cJSON *bench_growth(const struct renderer_params *params, const struct bench_eff
                     struct error *err)
 {
     struct renderer_params own = *params;
+
     own.stage = RENDER_ENGINE;
     struct renderer *renderer = renderer_create(&own, err);
     cJSON *rows = cJSON_CreateArray();

@@ -25,6 +25,7 @@ static struct store_write *new_write(const struct bench_edits *edits, enum store
                                      char *text)
 {
     struct store_write *write = memory_alloc(1, sizeof *write);
+
     write->kind = kind;
     snprintf(write->scene, sizeof write->scene, "bench-%zu", edits->scene->node_count);
     strcpy(write->author, "benchmark");
@@ -41,6 +42,7 @@ static void push_edit(struct bench_edits *edits)
     char text[96];
     cJSON *applied = NULL;
     struct error err = {0};
+
     edits->revision++;
     int length =
         snprintf(text, sizeof text, "[{\"op\":\"set\",\"at\":\"/camera/fov\",\"value\":%d}]",
@@ -57,6 +59,7 @@ static void push_edit(struct bench_edits *edits)
 static cJSON *measure(struct bench_edits *edits)
 {
     cJSON *row = cJSON_CreateObject();
+
     cJSON_AddNumberToObject(row, "nodes", (double)edits->scene->node_count);
     static double numbers[ALONE];
     store_push(edits->store, new_write(edits, STORE_CREATE, scene_print(edits->scene, false)));
@@ -88,6 +91,7 @@ static cJSON *measure_scene(struct store *store, size_t nodes)
     struct bench_edits edits = {
         .scene = scene_parse(text, length, NULL), .store = store, .revision = 1};
     cJSON *row = measure(&edits);
+
     scene_destroy(edits.scene);
     free(text);
     return row;
@@ -98,6 +102,7 @@ cJSON *bench_store(const char *directory, struct error *err)
     static struct metrics metrics;
     char *path = NULL;
     cJSON *rows = NULL;
+
     if (!directory_make(directory, err)) {
         return NULL;
     }

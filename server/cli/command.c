@@ -93,6 +93,7 @@ static int unknown(const char *name)
 {
     struct suggestion suggestion = {.text = name};
     char hint[64];
+
     for (int i = 0; i < COMMAND_COUNT; i++) {
         if (!table[i].hidden) {
             suggest_consider(&suggestion, table[i].name);
@@ -108,6 +109,7 @@ static int unknown(const char *name)
 static int help(const char *topic)
 {
     const struct command *command = topic ? command_find(topic) : NULL;
+
     if (topic && strcmp(topic, "options") == 0) {
         options_table(stdout);
     } else if (command) {
@@ -125,6 +127,7 @@ static int run(const struct command *command, int argc, char **argv)
     struct options options;
     struct error err = {0};
     int status = EXIT_USAGE;
+
     if (!options_read(&options, command, argc, argv, &err)) {
         fprintf(stderr, "fieldcast: ");
         error_print(&err, stderr);

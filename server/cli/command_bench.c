@@ -12,6 +12,7 @@
 static int by_value(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
+
     return (x > y) - (x < y);
 }
 
@@ -39,6 +40,7 @@ double bench_ms_since(int64_t start_us)
 const char *bench_part_name(size_t part)
 {
     static const char *const names[] = {"all", "drawing", "growth", "documents", "edits"};
+
     return part < sizeof names / sizeof names[0] ? names[part] : NULL;
 }
 
@@ -56,6 +58,7 @@ static cJSON *measure(const struct options *options, enum bench_part part, struc
     const struct bench_effort effort = {.rounds = option_int(options, OPTION_ROUNDS),
                                         .scale_down = option_int(options, OPTION_SCALE_DOWN)};
     struct renderer_params params;
+
     local_render_params(options, &params);
     switch (part) {
     case BENCH_DRAWING:
@@ -76,6 +79,7 @@ int command_bench(const struct options *options)
     const char *only = option_text(options, OPTION_ONLY);
     const enum bench_part asked = (enum bench_part)option_int(options, OPTION_PART);
     struct error err = {0};
+
     if (only && !examples_find(only)) {
         fprintf(stderr, "fieldcast: --only: %s is no example\n", only);
         return EXIT_USAGE;

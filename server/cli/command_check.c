@@ -27,6 +27,7 @@ static void tell(struct proving *proving, const char *place, const struct algebr
 {
     const bool checked = proof->verdict != SURFACE_NOT_CHECKED;
     FILE *out = checked ? stdout : stderr;
+
     fprintf(out, "%s%s: %s: %s: %s\n", checked ? "" : "fieldcast: warning: ", proving->file, place,
             surface_verdicts[proof->verdict], proof->reason);
     proving->fit = proving->fit && proof->verdict != SURFACE_DOES_NOT_FIT;
@@ -37,6 +38,7 @@ static void prove(struct proving *proving, const struct node *node)
     struct error err = {0};
     struct algebra_proof proof = {.verdict = SURFACE_NOT_CHECKED};
     char place[ERROR_PLACE_BYTES];
+
     snprintf(place, sizeof place, "/nodes/%s/params/parametric", node->id);
     if (!proving->algebra) {
         proving->algebra = algebra_create(&err);
@@ -61,6 +63,7 @@ static void prove_tree(struct proving *proving, const struct node *top)
 static bool prove_all(const char *file, const struct scene *scene)
 {
     struct proving proving = {.file = file, .fit = true};
+
     prove_tree(&proving, scene->root);
     for (size_t i = 0; i < scene->models.count; i++) {
         prove_tree(&proving, scene->models.items[i]->root);
@@ -79,6 +82,7 @@ static bool check(const char *name)
     struct error err = {0}, warning = {0};
     struct scene *scene = scene_open(name, &err);
     bool ok = scene && renderer_check(scene, &warning, &err);
+
     if (!scene) {
         error_print(&err, stdout);
     } else if (!ok) {
@@ -95,6 +99,7 @@ static bool check(const char *name)
 int command_check(const struct options *options)
 {
     int status = EXIT_OK;
+
     for (int i = 0; i < options->operand_count; i++) {
         status = check(options->operands[i]) ? status : EXIT_FAILED;
     }

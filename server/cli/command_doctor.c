@@ -32,6 +32,7 @@ static int say(enum verdict verdict, const char *what, const char *format, ...)
 {
     static const char *const marks[] = {[GOOD] = "ok  ", [WARNING] = "warn", [BAD] = "FAIL"};
     va_list args;
+
     printf("%s  %-14s", marks[verdict], what);
     va_start(args, format);
     vprintf(format, args);
@@ -46,6 +47,7 @@ static void list_devices(const struct device_params *params)
 {
     struct device_report rows[DEVICES_MAX];
     size_t count = renderer_devices(params, rows, DEVICES_MAX);
+
     for (size_t i = 0; i < count; i++) {
         printf("      device %zu      %s: %s\n", i, rows[i].name, rows[i].verdict);
     }
@@ -59,6 +61,7 @@ static void explain_software(void)
 {
     glob_t nodes;
     bool closed = false;
+
     if (glob("/dev/dri/renderD*", 0, NULL, &nodes) == 0) {
         for (size_t i = 0; i < nodes.gl_pathc; i++) {
             if (access(nodes.gl_pathv[i], R_OK | W_OK) != 0) {
@@ -78,6 +81,7 @@ static int check_drawing(const struct options *options)
 {
     struct error err = {0};
     struct renderer_params params;
+
     local_render_params(options, &params);
     list_devices(&params.device);
     struct renderer *renderer = renderer_create(&params, &err);
@@ -114,6 +118,7 @@ static int check_confinement(const struct options *options)
     };
     struct confinement confined = {0};
     struct error err = {0};
+
     local_render_params(options, &params.renderer);
     fflush(stdout);
     bool draws = worker_try(&params, &confined, &err);
@@ -140,6 +145,7 @@ static int check_confinement(const struct options *options)
 static char *nearest_existing(const char *path)
 {
     char *copy = memory_text(path);
+
     while (access(copy, F_OK) != 0) {
         char *slash = strrchr(copy, '/');
         if (!slash || slash == copy) {
@@ -157,6 +163,7 @@ static int check_data(const char *path)
     bool made = strcmp(existing, path) == 0;
     struct statvfs disk;
     int bad = 0;
+
     if (access(existing, W_OK | X_OK) != 0) {
         bad = say(BAD, "data", "%s: %s: %s", path, existing, strerror(errno));
     } else if (statvfs(existing, &disk) != 0) {
@@ -187,6 +194,7 @@ static int try_bind(const struct addrinfo *address)
 {
     int one = 1;
     int fd = socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
+
     if (fd < 0) {
         return errno;
     }
@@ -205,6 +213,7 @@ static int check_port(const char *host, const char *port)
                              .ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE};
     struct addrinfo *address;
     int status = getaddrinfo(host, port, &hints, &address);
+
     if (status != 0) {
         return say(BAD, "port", "%s: %s", host, gai_strerror(status));
     }

@@ -12,6 +12,7 @@ static void set_generators(struct record *asked, const struct options *options)
     char *text = NULL;
     size_t length;
     FILE *out = open_memstream(&text, &length);
+
     for (int i = 0; i < options->operand_count; i++) {
         fprintf(out, "%s\n", options->operands[i]);
     }
@@ -48,6 +49,7 @@ static bool ask(struct algebra *algebra, const void *question, cJSON **out, stru
     const struct options *options = question;
     const bool steps = options->values[OPTION_STEPS].number[0] != 0;
     struct record asked;
+
     record_init(&asked, &ideal_type);
     set_generators(&asked, options);
     set_members(&asked, options);

@@ -7,6 +7,7 @@ static bool ask(struct algebra *algebra, const void *question, cJSON **out, stru
 {
     const struct options *options = question;
     const char *const texts[] = {options->operands[0], options->operands[1], options->operands[2]};
+
     return algebra_implicitize(
         algebra, (enum surface_method)options->values[OPTION_METHOD].number[0], texts, out, err);
 }

@@ -26,6 +26,7 @@ static bool add_file(struct folder *folder, char *path)
     char *text = folder->count < LIMIT_JSON_KEYS
                      ? file_read(path, LIMIT_DOCUMENT_BYTES, &length, folder->err)
                      : NULL;
+
     if (!text) {
         if (folder->count == LIMIT_JSON_KEYS) {
             error_set(folder->err, ERROR_LIMIT, path, "more files than the maximum %d",
@@ -52,6 +53,7 @@ static bool add_entry(struct folder *folder, const char *path, const char *name,
     struct stat about;
     char *whole = NULL;
     bool ok = true;
+
     if (name[0] == '.') {
         return true;
     }
@@ -74,6 +76,7 @@ static bool add_folder(struct folder *folder, const char *path, int depth)
     DIR *directory = opendir(path);
     const struct dirent *entry;
     bool ok = true;
+
     if (!directory) {
         return error_set(folder->err, ERROR_INVALID, path, "%s", strerror(errno));
     }
@@ -108,6 +111,7 @@ static bool import(const struct options *options, struct error *err)
     cJSON *notes = NULL;
     const cJSON *note;
     bool ok = false;
+
     if (add_folder(&folder, options->operands[0], 1)) {
         qsort(folder.files, folder.count, sizeof *folder.files, compare);
         scene = import_scene(&(struct import_source){.files = folder.files,
@@ -134,6 +138,7 @@ int command_import(const struct options *options)
 {
     struct error err = {0};
     int status = EXIT_USAGE;
+
     if (!option_text(options, OPTION_OUTPUT)) {
         error_set(&err, ERROR_INVALID, "--output", "is needed: the document to write");
     } else if (import(options, &err)) {

@@ -51,6 +51,7 @@ static bool read_members(const struct options *options, const struct record_type
                          const char *prefix, struct render_request *out, struct error *err)
 {
     bool ok = true;
+
     for (const struct param *param = type->params; ok && param->name; param++) {
         char name[64];
         snprintf(name, sizeof name, "%s%s", prefix, param->name);
@@ -73,6 +74,7 @@ static bool read_request(const struct options *options, struct render_request *o
 static bool add_rows(struct job *job, struct picture_file *file, struct error *err)
 {
     bool ok = true;
+
     for (int i = 0; i < AOV_COUNT; i++) {
         if (job_image_info(job, (enum aov)i).width > 0) {
             struct image rows = job_take_rows(job, (enum aov)i);
@@ -87,6 +89,7 @@ static bool draw_rows(struct renderer *renderer, struct job *job, struct picture
                       struct error *err)
 {
     enum job_state state;
+
     while ((state = job_step(job)) != JOB_DONE) {
         if (state == JOB_FAILED) {
             *err = *job_error(job);
@@ -107,6 +110,7 @@ static bool write_picture(struct renderer *renderer, struct job *job,
     const struct encode_params params = encode_params_of(request);
     struct image shapes[AOV_COUNT];
     struct file_writer writer;
+
     for (int i = 0; i < AOV_COUNT; i++) {
         shapes[i] = job_image_info(job, (enum aov)i);
     }
@@ -126,6 +130,7 @@ static bool draw(struct scene *scene, const struct options *options, struct rend
     struct resident *resident = NULL;
     struct job *job = NULL;
     struct renderer_params device;
+
     local_render_params(options, &device);
     struct renderer *renderer = renderer_create(&device, err);
     render_request_see_from(request, &scene->camera);
@@ -154,6 +159,7 @@ int command_render(const struct options *options)
     struct error err = {0};
     struct render_request request;
     int status = EXIT_USAGE;
+
     render_request_init(&request);
     if (read_request(options, &request, &err)) {
         struct scene *scene = scene_open(options->operands[0], &err);

@@ -11,6 +11,7 @@ static char *schema_text(void)
 {
     cJSON *schema = schema_build();
     char *text = json_print(schema, true);
+
     cJSON_Delete(schema);
     return text;
 }
@@ -19,6 +20,7 @@ int command_schema(const struct options *options)
 {
     bool reference = option_flag(options, OPTION_REFERENCE);
     char *text = reference ? reference_markdown() : schema_text();
+
     fputs(text, stdout);
     fputs(reference ? "" : "\n", stdout);
     free(text);

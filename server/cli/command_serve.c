@@ -15,6 +15,7 @@ enum { TOKEN_MIN = 16, TOKEN_MAX = 200, TOKEN_FILE_MAX = 4096 };
 static const char **split(const char *list, char **out_text)
 {
     size_t count = 1;
+
     for (const char *c = list; *c; c++) {
         count += *c == ',';
     }
@@ -33,6 +34,7 @@ static char *read_token(const char *path, struct error *err)
 {
     size_t length;
     char *text = file_read(path, TOKEN_FILE_MAX, &length, err);
+
     if (!text) {
         return NULL;
     }
@@ -55,6 +57,7 @@ static int run(const struct options *options, struct serve_params *params)
     char *origins_text = NULL, *hosts_text = NULL;
     const char **origins = NULL, **hosts = NULL;
     const char *list = option_text(options, OPTION_ALLOW_ORIGIN);
+
     if (list) {
         params->allowed_origins = origins = split(list, &origins_text);
     }
@@ -92,6 +95,7 @@ int command_serve(const struct options *options)
     char *token = NULL;
     const char *token_file = option_text(options, OPTION_TOKEN_FILE);
     const char *data = option_text(options, OPTION_DATA);
+
     if ((token_file && !(token = read_token(token_file, &err))) || !directory_make(data, &err)) {
         fputs("fieldcast: ", stderr);
         error_print(&err, stderr);

@@ -21,6 +21,7 @@ static char *read_all(int fd, const char *path, size_t limit, size_t *out_length
 {
     size_t capacity = 65536, length = 0;
     char *text = memory_alloc(capacity, 1);
+
     for (;;) {
         ssize_t got = read(fd, text + length, capacity - length - 1);
         if (got < 0 && errno == EINTR) {
@@ -67,6 +68,7 @@ char *file_read(const char *path, size_t limit, size_t *out_length, struct error
 static bool is_special(const char *path)
 {
     struct stat status;
+
     return stat(path, &status) == 0 && !S_ISREG(status.st_mode);
 }
 
@@ -104,6 +106,7 @@ bool file_writer_open(struct file_writer *writer, const char *path, struct error
 static bool finish_temporary(FILE *file)
 {
     mode_t mask = umask(0);
+
     umask(mask);
     return fchmod(fileno(file), 0666 & ~mask) == 0 && fsync(fileno(file)) == 0;
 }
@@ -111,6 +114,7 @@ static bool finish_temporary(FILE *file)
 bool file_writer_close(struct file_writer *writer, bool whole, struct error *err)
 {
     bool ok = fflush(writer->file) == 0 && !ferror(writer->file);
+
     if (writer->temporary) {
         ok = whole && ok && finish_temporary(writer->file) &&
              rename(writer->temporary, writer->path) == 0;
@@ -129,6 +133,7 @@ bool file_writer_close(struct file_writer *writer, bool whole, struct error *err
 bool file_replace(const char *path, const void *bytes, size_t length, struct error *err)
 {
     struct file_writer writer;
+
     if (!file_writer_open(&writer, path, err)) {
         return false;
     }
@@ -140,6 +145,7 @@ bool directory_make(const char *path, struct error *err)
 {
     char *copy = memory_text(path);
     bool ok = true;
+
     for (char *end = copy + 1; ok; end++) {
         if (*end != '/' && *end != '\0') {
             continue;

@@ -22,6 +22,7 @@ void local_render_params(const struct options *options, struct renderer_params *
 {
     const char *cache = option_text(options, OPTION_CACHE);
     struct error err = {0};
+
     if (cache && !directory_make(cache, &err)) {
         fputs("fieldcast: no shader cache: ", stderr);
         error_print(&err, stderr);
@@ -41,6 +42,7 @@ void local_render_give_example_file(struct renderer *renderer, const struct scen
 {
     const char *id = record_text(&scene->environment, "image");
     const struct embedded *file = example_files_find(id);
+
     if (file) {
         renderer_asset(renderer, id, file->bytes, file->length);
     }
@@ -55,6 +57,7 @@ static bool give_file(struct renderer *renderer, const struct scene *scene, cons
     size_t length;
     char id[ASSET_ID_CHARACTERS + 1];
     char *bytes = file_read(path, LIMIT_ASSET_BYTES, &length, err);
+
     if (!bytes) {
         return false;
     }
@@ -76,6 +79,7 @@ bool local_render_give_files(struct renderer *renderer, const struct scene *scen
     const char *paths = option_text(options, OPTION_ASSET);
     char *copy = memory_text(paths ? paths : ""), *rest = copy, *path;
     bool ok = true;
+
     local_render_give_example_file(renderer, scene);
     while (ok && (path = strsep(&rest, "\n")) && *path) {
         ok = give_file(renderer, scene, path, err);
@@ -87,6 +91,7 @@ bool local_render_give_files(struct renderer *renderer, const struct scene *scen
 static struct scene *open_example(const char *name, const char *id, struct error *err)
 {
     const struct embedded *example = examples_find(id);
+
     if (example) {
         return scene_parse((const char *)example->bytes, example->length, err);
     }

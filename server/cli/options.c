@@ -45,6 +45,7 @@ static const char *confine_choice(size_t index)
 {
     static const char *const words[] = {
         [CONFINE_AUTO] = "auto", [CONFINE_STRICT] = "strict", [CONFINE_OFF] = "off"};
+
     return word_of(words, 3, index);
 }
 
@@ -61,6 +62,7 @@ static const char *switch_choice(size_t index)
 static const char *log_level_choice(size_t index)
 {
     static const char *const words[] = {"error", "warning", "info", "debug"};
+
     return word_of(words, 4, index);
 }
 
@@ -69,6 +71,7 @@ static const char *choice_of(const struct record_type *type, const char *member,
 {
     const struct param *param = &type->params[record_type_find(type, member)];
     size_t count = 0;
+
     while (param->choices[count]) {
         count++;
     }
@@ -303,6 +306,7 @@ const struct option_row *option_row(enum option option)
 enum option option_find(const char *name)
 {
     int i = 0;
+
     while (i < OPTION_COUNT && strcmp(table[i].name, name) != 0) {
         i++;
     }
@@ -320,6 +324,7 @@ void option_variable(const struct option_row *row, char *out, size_t size)
 static char *joined(const char *directory, const char *rest)
 {
     char *path = NULL;
+
     if (asprintf(&path, "%s/%s", directory, rest) < 0) {
         abort();
     }
@@ -329,6 +334,7 @@ static char *joined(const char *directory, const char *rest)
 static const char *home(void)
 {
     const char *directory = getenv("HOME");
+
     return directory && *directory ? directory : "/";
 }
 
@@ -360,6 +366,7 @@ static bool read_number(const struct option_row *row, const char *text, const ch
 {
     const bool whole = row->type == OPTION_INT || row->type == OPTION_PIXELS;
     char *stop;
+
     errno = 0;
     double number = strtod(text, &stop);
     int length = (int)(end - text);
@@ -402,6 +409,7 @@ static bool read_word(const struct option_row *row, const char *text, size_t len
                       const char *place, struct error *err)
 {
     char list[128] = "";
+
     for (size_t i = 0; row->choice(i); i++) {
         if (strlen(row->choice(i)) == length && memcmp(row->choice(i), text, length) == 0) {
             *out = i;
@@ -418,6 +426,7 @@ static bool read_choice(const struct option_row *row, const char *text, double *
 {
     size_t index;
     bool ok = read_word(row, text, strlen(text), &index, place, err);
+
     *out = ok ? (double)index : 0;
     return ok;
 }
@@ -427,6 +436,7 @@ static bool read_choices(const struct option_row *row, const char *text, double 
 {
     unsigned bits = 0;
     size_t index, length;
+
     for (const char *word = text;; word += length + 1) {
         length = strcspn(word, ",");
         if (!read_word(row, word, length, &index, place, err)) {
@@ -444,6 +454,7 @@ static bool read_choices(const struct option_row *row, const char *text, double 
 static bool read_flag(const char *text, double *out, const char *place, struct error *err)
 {
     bool yes = strcmp(text, "yes") == 0;
+
     if (!yes && strcmp(text, "no") != 0) {
         return error_set(err, ERROR_INVALID, place, "'%s' is neither yes nor no", text);
     }
@@ -484,6 +495,7 @@ static bool read_value(const struct option_row *row, const char *text, double *n
 static char *appended(const struct option_value *before, enum option_source source, char *text)
 {
     char *both = NULL;
+
     if (!before->text || before->source != source) {
         return text;
     }
@@ -499,6 +511,7 @@ bool option_set(struct options *options, enum option option, const char *text,
 {
     const struct option_row *row = &table[option];
     struct option_value value = {.source = source};
+
     if (!read_value(row, text, value.number, place, err)) {
         return false;
     }
@@ -536,5 +549,6 @@ bool option_flag(const struct options *options, enum option option)
 const double *option_vector(const struct options *options, enum option option)
 {
     const struct option_value *value = &options->values[option];
+
     return value->source == SOURCE_NONE ? NULL : value->number;
 }

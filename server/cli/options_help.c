@@ -12,6 +12,7 @@ enum { LINE = 92, INDENT = 30 };
 static void print_wrapped(FILE *out, const char *text, int column, int indent)
 {
     const char *gap = "";
+
     while (*text) {
         int word = (int)strcspn(text, " ");
         if (*gap && column + 1 + word > LINE) {
@@ -35,6 +36,7 @@ static void default_words(const struct option_row *row, char *out, size_t size)
                                         [BASE_DATA] = "~/.local/share/",
                                         [BASE_CONFIG] = "~/.config/",
                                         [BASE_CACHE] = "~/.cache/"};
+
     snprintf(out, size, "%s%s", row->fallback ? bases[row->base] : "",
              row->fallback ? row->fallback : "");
 }
@@ -54,6 +56,7 @@ static void print_option(FILE *out, const struct option_row *row)
     int column = snprintf(head, sizeof head, "  %s%c%s--%s%s%s", row->letter ? "-" : "",
                           row->letter ? row->letter : ' ', row->letter ? ", " : "   ", row->name,
                           row->value ? " " : "", row->value ? row->value : "");
+
     fputs(head, out);
     fprintf(out, "%*s", column < INDENT ? INDENT - column : 2, "");
     column = column < INDENT ? INDENT : column + 2;
@@ -106,6 +109,7 @@ void options_help(const struct command *command, FILE *out)
 static void print_commands(FILE *out, const struct option_row *row)
 {
     bool first = true;
+
     for (int i = 0; i < COMMAND_COUNT; i++) {
         const struct command *command = command_at((enum command_id)i);
         if (command->hidden || !(row->commands >> i & 1U)) {

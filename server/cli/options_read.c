@@ -37,6 +37,7 @@ static bool unknown(const struct command *command, const char *place, const char
 {
     struct suggestion suggestion = {.text = name};
     char hint[64];
+
     for (int i = 0; i < OPTION_COUNT; i++) {
         const struct option_row *row = option_row((enum option)i);
         if (command ? applies(row, command) : row->stored) {
@@ -67,6 +68,7 @@ static char *trimmed(char *text)
 static bool read_line(struct options *options, char *line, const char *place, struct error *err)
 {
     char *name = trimmed(line);
+
     if (*name == '\0' || *name == '#') {
         return true;
     }
@@ -91,6 +93,7 @@ static bool read_line(struct options *options, char *line, const char *place, st
 static bool read_file(struct options *options, struct error *err)
 {
     const struct option_value *config = &options->values[OPTION_CONFIG];
+
     if (!config->text) {
         return true;
     }
@@ -141,6 +144,7 @@ static int read_option(struct options *options, int argc, char **argv, struct er
     const char *equals = strchr(name, '=');
     size_t length = equals ? (size_t)(equals - name) : strlen(name);
     char place[64];
+
     snprintf(place, sizeof place, "%.*s", (int)(name - argument + (ptrdiff_t)length), argument);
 
     enum option option = OPTION_COUNT;
@@ -196,6 +200,7 @@ static bool check_operands(const struct options *options, struct error *err)
 {
     const struct command *command = options->command;
     int count = options->operand_count;
+
     if (command->operands && count == 0) {
         return error_set(err, ERROR_INVALID, command->name, "needs %s", command->operands);
     }
@@ -226,6 +231,7 @@ static bool set_defaults(struct options *options, struct error *err)
 static bool find_config(struct options *options, struct error *err)
 {
     const char *path = getenv("FIELDCAST_CONFIG");
+
     if (!path || options->values[OPTION_CONFIG].source != SOURCE_DEFAULT) {
         return true;
     }
@@ -238,6 +244,7 @@ bool options_read(struct options *options, const struct command *command, int ar
                   struct error *err)
 {
     struct options given = {.command = command};
+
     *options = (struct options){.command = command};
     bool ok = read_arguments(&given, argc, argv, err);
     if (ok && option_flag(&given, OPTION_HELP)) {

@@ -242,6 +242,7 @@ int http_gone_fd(const struct http *http)
 void http_check_gone(struct http *http)
 {
     struct epoll_event events[16];
+
     struct {
         void (*call)(void *data);
         void *data;

@@ -32,6 +32,7 @@ static void question_destroy(struct question *question)
 static void reply_error(struct request *request, struct error *err)
 {
     char place[ERROR_PLACE_BYTES];
+
     if (err->place[0] && err->place[0] != '/') {
         snprintf(err->place, sizeof err->place, "%s", error_place(place, "", err->place));
     }
@@ -43,6 +44,7 @@ static void answer(void *data, bool dropped)
     struct question *question = data;
     struct error err = {0};
     cJSON *json = NULL;
+
     if (dropped) {
         error_set(&err, ERROR_UNAVAILABLE, "", "the server is shutting down");
         request_reply_error(question->request, &err);
@@ -60,6 +62,7 @@ static void wait_in_turn(struct request *request, struct question question,
     struct error err = {0};
     struct question *kept = memory_alloc(1, sizeof *kept);
     cJSON *json = json_parse(request->body, request->body_length, &err);
+
     *kept = question;
     kept->request = request;
     const bool ok = json && read(kept, json, &err) &&
@@ -89,6 +92,7 @@ static bool read_parts(struct question *out, const cJSON *json, struct error *er
     bool ok = json_sort_members(json, parts, found, "", err) &&
               (!found[SURFACE_PARTS] ||
                param_read(&method, found[SURFACE_PARTS], number, "/method", err));
+
     out->method = (enum surface_method)number[0];
     for (int i = 0; ok && i < SURFACE_PARTS; i++) {
         const char *text;
@@ -109,6 +113,7 @@ static bool ask_verdict(struct algebra *algebra, const struct question *question
                         struct error *err)
 {
     struct algebra_proof proof;
+
     if (!algebra_verify(algebra, &question->params, &proof, err)) {
         return false;
     }

@@ -12,6 +12,7 @@
 static void reply_begun(struct request *request, const char *id)
 {
     cJSON *json = cJSON_CreateObject();
+
     cJSON_AddStringToObject(json, "id", id);
     struct response response = response_json(202, json);
     response_add(&response, "Location", "/v1/groebner/%s", id);
@@ -24,6 +25,7 @@ void groebner_begin(struct request *request)
     struct record asked;
     char id[BASIS_ID_BYTES];
     cJSON *json = json_parse(request->body, request->body_length, &err);
+
     record_init(&asked, &ideal_type);
     const bool ok = json && record_read(&asked, json, "", &err) &&
                     bases_add(request->hub->bases, request->client, &asked, id, &err);
@@ -39,6 +41,7 @@ void groebner_begin(struct request *request)
 static void reply_missing(struct request *request)
 {
     struct error err = {0};
+
     error_set(&err, ERROR_NOT_FOUND, "", "there is no basis %s; the newest %d are kept",
               request->capture[0], LIMIT_GROEBNER_KEPT);
     request_reply_error(request, &err);
@@ -49,6 +52,7 @@ static bool read_from(const struct request *request, size_t *out, struct error *
     static const char *const queries[] = {"from", NULL};
     const char *text = request_query(request, "from");
     char *end = NULL;
+
     if (!request_check_query(request, queries, err)) {
         return false;
     }
@@ -62,6 +66,7 @@ void groebner_look(struct request *request)
 {
     struct error err = {0};
     size_t from;
+
     if (!read_from(request, &from, &err)) {
         request_reply_error(request, &err);
         return;
@@ -77,6 +82,7 @@ void groebner_look(struct request *request)
 void groebner_cancel(struct request *request)
 {
     const struct response done = {.status = 204, .body = "", .borrowed = true};
+
     if (bases_cancel(request->hub->bases, request->capture[0])) {
         request_reply(request, &done);
     } else {

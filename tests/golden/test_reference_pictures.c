@@ -157,5 +157,6 @@ int main(void)
         cmocka_unit_test(every_example_has_its_card),
         cmocka_unit_test(another_picture_is_noticed),
     };
+
     return cmocka_run_group_tests_name("reference_pictures", tests, start, stop);
 }

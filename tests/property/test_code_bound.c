@@ -142,5 +142,6 @@ int main(void)
         cmocka_unit_test(every_kind_alone_takes_what_is_allowed),
         cmocka_unit_test(code_at_the_bound_takes_what_is_allowed),
     };
+
     return cmocka_run_group_tests_name("code at the bound", tests, setup, teardown);
 }

@@ -28,6 +28,7 @@ static int setup(void **state)
 {
     struct error err = {0};
     (void)state;
+
     if (!code_gpu_init(&gpu, &err)) {
         print_error("%s\n", err.message);
         return -1;
@@ -57,6 +58,7 @@ static const char *const vectors[] = {"", "float", "vec2", "vec3", "vec4"};
 static void write_argument(FILE *out, const char *type, int rows, int place)
 {
     static const char *const parts[] = {"p.x", "p.y", "p.z * 0.5 + 0.25", "p.x * 0.75 - p.z"};
+
     fprintf(out, "%s(", type);
     for (int i = 0; i < rows; i++) {
         fprintf(out, "%s%s", i > 0 ? ", " : "", parts[(i + place) % 4]);
@@ -104,6 +106,7 @@ static const char *vector_type(struct shape shape)
                                            {"", "uint", "uvec2", "uvec3", "uvec4"},
                                            {"", "bool", "bvec2", "bvec3", "bvec4"}};
     int base = shape.base[0] == 'f' ? 0 : shape.base[0] == 'i' ? 1 : shape.base[0] == 'u' ? 2 : 3;
+
     return types[base][shape.rows];
 }
 
@@ -134,6 +137,7 @@ static void add_call(struct code_batch *batch, const struct builtin *row, const 
     char *text = NULL;
     size_t length;
     FILE *out = open_memstream(&text, &length);
+
     fprintf(out, "float sdf(vec3 p) { %s v = %s(", vector_type(result), row->name);
     for (int i = 0; i < row->arguments; i++) {
         fprintf(out, "%s", i > 0 ? ", " : "");
@@ -151,6 +155,7 @@ static void add_same(struct code_batch *batch, const struct builtin *row, const 
                      int rows, struct shape result)
 {
     const struct shape one = {base, rows}, in[] = {one, one, one};
+
     add_call(batch, row, in, result);
 }
 
@@ -160,6 +165,7 @@ static void add_matrices(struct code_batch *batch, const struct builtin *row, in
     size_t length;
     FILE *out = open_memstream(&text, &length);
     bool number = row->family == FAMILY_DETERMINANT, vector = row->family == FAMILY_OUTER;
+
     fputs("float sdf(vec3 p) { ", out);
     if (number) {
         fputs("float", out);
@@ -186,6 +192,7 @@ static void add_matrices(struct code_batch *batch, const struct builtin *row, in
 static void add_products(struct code_batch *batch, const struct builtin *row, int size)
 {
     static const char *const arguments[] = {"(m, v)", "(v, m)", "(m, m + m)[1]", "(2.0, v)"};
+
     for (size_t i = 0; i < sizeof arguments / sizeof arguments[0]; i++) {
         char *text = NULL;
         size_t length;
@@ -207,6 +214,7 @@ static void add_products(struct code_batch *batch, const struct builtin *row, in
 static void add_vectors(struct code_batch *batch, const struct builtin *row, int rows)
 {
     const struct shape b = {"bool", rows};
+
     switch (row->family) {
     case FAMILY_EQUAL:
         add_same(batch, row, "bool", rows, b);
@@ -239,6 +247,7 @@ static void add_vectors(struct code_batch *batch, const struct builtin *row, int
 static void add_three(struct code_batch *batch, const struct builtin *row)
 {
     const struct shape one = {"float", 1}, octaves[] = {{"float", 3}, {"int", 1}};
+
     switch (row->family) {
     case FAMILY_CROSS:
         add_same(batch, row, "float", 3, octaves[0]);
@@ -271,6 +280,7 @@ static void add_jet(struct code_batch *batch, const struct builtin *row)
     char *text = NULL;
     size_t length;
     FILE *out = open_memstream(&text, &length);
+
     fprintf(out, "float sdf(vec3 p) { %s v = %s(", jet ? "mat3" : "vec4", row->name);
     for (int i = 0; i < row->arguments; i++) {
         fprintf(out, "%s", i > 0 ? ", " : "");
@@ -289,6 +299,7 @@ static void add_row(struct code_batch *batch, const struct builtin *row, int row
 {
     const struct shape f = {"float", rows}, one = {"float", 1}, b = {"bool", rows};
     const struct shape select[] = {f, f, b}, refract[] = {f, f, one}, wide[] = {one, f, f};
+
     switch (row->family) {
     case FAMILY_NUMBER:
         add_same(batch, row, "uint", rows, (struct shape){"uint", rows});
@@ -331,6 +342,7 @@ static void every_function_agrees(void **state)
 {
     struct code_batch batch = {.gpu = &gpu, .numbers = numbers};
     (void)state;
+
     for (const struct builtin *row = builtin_table; row->name; row++) {
         for (int rows = 1; rows <= 4; rows++) {
             add_row(&batch, row, rows);
@@ -344,6 +356,7 @@ static void functions_of_equations_agree(void **state)
 {
     struct code_batch batch = {.gpu = &gpu, .numbers = numbers, .ours = true};
     (void)state;
+
     for (const struct builtin *row = builtin_table; row->name; row++) {
         if (row->family == FAMILY_JET) {
             add_jet(&batch, row);
@@ -398,6 +411,7 @@ static void the_ends_of_domains_agree(void **state)
     };
     struct code_batch batch = {.gpu = &gpu, .numbers = numbers};
     (void)state;
+
     for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
         char text[TEXT_MAX];
         snprintf(text, sizeof text, "float sdf(vec3 p) { return %s; }", values[i]);
@@ -414,6 +428,7 @@ static void accepted_code_agrees(void **state)
     (void)state;
     struct code_batch batch = {.gpu = &gpu, .numbers = numbers};
     struct code_blocks blocks = code_blocks_read("tests/code/accepted.glsl");
+
     for (size_t i = 0; i < blocks.count; i++) {
         code_batch_add(&batch, blocks.rows[i].text, CODE_DISTANCE, no_params);
         run_if_full(&batch);
@@ -432,6 +447,7 @@ static void listings_of_the_thesis_agree(void **state)
     (void)state;
     struct code_batch batch = {.gpu = &gpu, .numbers = numbers};
     struct code_blocks blocks = code_blocks_read("tests/code/thesis.glsl");
+
     code_batch_add(&batch, blocks.rows[0].text, CODE_DISTANCE, size);
     code_batch_add(&batch, blocks.rows[1].text, CODE_SHADE, blend);
     code_batch_run(&batch, 0);
@@ -471,6 +487,7 @@ static void parameters_and_shaders_agree(void **state)
     };
     struct code_batch batch = {.gpu = &gpu, .numbers = numbers};
     (void)state;
+
     for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
         code_batch_add(&batch, distances[i], CODE_DISTANCE, types);
     }
@@ -510,6 +527,7 @@ static void surfaces_agree(void **state)
     };
     struct code_batch batch = {.gpu = &gpu, .numbers = numbers};
     (void)state;
+
     for (size_t i = 0; i < sizeof shaders / sizeof shaders[0]; i++) {
         code_batch_add(&batch, shaders[i], CODE_SHADE, types);
     }
@@ -577,5 +595,6 @@ int main(void)
         cmocka_unit_test(random_code_agrees),
         cmocka_unit_test(changed_code_compiles),
     };
+
     return cmocka_run_group_tests_name("code in GLSL", tests, setup, teardown);
 }

@@ -136,5 +136,6 @@ int main(void)
         cmocka_unit_test(what_was_drawn_before_does_not_show),
         cmocka_unit_test(edits_and_their_undo_leave_nothing),
     };
+
     return cmocka_run_group_tests_name("determinism", tests, start, stop);
 }

@@ -34,12 +34,14 @@ static const enum aov outputs[] = {AOV_COLOR, AOV_DEPTH,    AOV_NORMAL,
 static double circle_of(size_t view)
 {
     const double tangent = RADIUS / sqrt(AWAY * AWAY - RADIUS * RADIUS);
+
     return views[view].radius > 0 ? views[view].radius : tangent / tan(FOV / 2 * M_PI / 180);
 }
 
 static struct resident *open_ball(const char *camera)
 {
     char text[400];
+
     snprintf(text, sizeof text,
              "{'format': 'fieldcast/1', 'camera': {'position': [0, 0, 3], 'target': [0, 0, 0], %s},"
              " 'root': {'id': 'ball', 'type': 'sphere', 'params': {'radius': 0.8}}}",
@@ -54,6 +56,7 @@ static bool is_covered(const struct image *image, enum aov aov, int x, int y)
     const size_t pixel = (size_t)y * (size_t)image->width + (size_t)x;
     const size_t size = image->bytes / (size_t)(image->width * image->height);
     const uint8_t *bytes = (const uint8_t *)image->pixels + pixel * size;
+
     if (aov == AOV_DEPTH) {
         const float depth = ((const float *)image->pixels)[pixel];
         return isfinite(depth) && depth > 0;
@@ -72,6 +75,7 @@ static double worst_pixel(struct resident *resident, const int size[2], enum aov
                           double shift)
 {
     struct job_desc desc = drawing_desc(size[0], size[1]);
+
     desc.samples = 1;
     desc.transparent = 1;
     desc.as_floats = aov != AOV_COLOR;
@@ -97,6 +101,7 @@ static double worst_pixel(struct resident *resident, const int size[2], enum aov
 static void judge_view(size_t view, double shift, double *out_worst)
 {
     struct resident *resident = open_ball(views[view].camera);
+
     for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
         for (size_t o = 0; o < sizeof outputs / sizeof outputs[0]; o++) {
             const double worst =
@@ -124,6 +129,7 @@ static void the_engine_draws_the_circle(void **state)
 {
     double worst;
     (void)state;
+
     judge(RENDER_ENGINE, 0, &worst);
     print_message("# off by %.4f pixels at most\n", worst);
 }
@@ -132,6 +138,7 @@ static void compute_shaders_draw_the_circle(void **state)
 {
     double worst;
     (void)state;
+
     judge(RENDER_COMPUTE, 0, &worst);
     print_message("# off by %.4f pixels at most\n", worst);
 }
@@ -140,6 +147,7 @@ static void fragment_shaders_draw_the_circle(void **state)
 {
     double worst;
     (void)state;
+
     judge(RENDER_FRAGMENT, 0, &worst);
     print_message("# off by %.4f pixels at most\n", worst);
 }
@@ -148,6 +156,7 @@ static void another_circle_is_noticed(void **state)
 {
     double worst;
     (void)state;
+
     judge(RENDER_ENGINE, 0.15, &worst);
     assert_true(worst > ROOM);
 }
@@ -174,5 +183,6 @@ int main(void)
         cmocka_unit_test(fragment_shaders_draw_the_circle),
         cmocka_unit_test(another_circle_is_noticed),
     };
+
     return cmocka_run_group_tests(tests, start, stop);
 }

@@ -152,5 +152,6 @@ int main(void)
         cmocka_unit_test(no_rays_without_need),
         cmocka_unit_test(other_pixels_stay),
     };
+
     return cmocka_run_group_tests_name("effects", tests, start, stop);
 }

@@ -249,6 +249,7 @@ static size_t list_ways(struct way *out)
 {
     static const struct way others[] = {{0, 1, 0}, {0, 2, 0}, {0, 5, 0}, {0, 5, 16}, {0, 2, 24}};
     size_t count = 0;
+
     for (size_t i = 0; engine_lanes(i) > 0; i++) {
         out[count++] = (struct way){engine_lanes(i), 0, 0};
     }
@@ -269,6 +270,7 @@ static void all_ways_give_the_same_bytes(void **state)
                                              example("repeat-polar"),
                                              example("coloured-glass"),
                                              &many};
+
     enum { SCENES = sizeof scenes / sizeof scenes[0], SMALLER = 2, WAYS_MAX = 16 };
     struct image first[SCENES];
     struct way ways[WAYS_MAX];
@@ -303,5 +305,6 @@ int main(void)
         cmocka_unit_test(what_is_left_out_beside_equations_is_not_missed),
         cmocka_unit_test(all_ways_give_the_same_bytes),
     };
+
     return cmocka_run_group_tests_name("engine", tests, NULL, NULL);
 }

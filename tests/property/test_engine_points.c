@@ -29,6 +29,7 @@ static double distance_in_c(const struct field *field, const double p[3])
 static bool agrees(const struct field *field, const float point[3], double got)
 {
     double low = INFINITY, high = -INFINITY;
+
     for (int corner = -1; corner < 8; corner++) {
         double p[3];
         for (int i = 0; i < 3; i++) {
@@ -48,6 +49,7 @@ static bool agrees(const struct field *field, const float point[3], double got)
 static void look_at(struct random *random, const struct field *field, const struct scene *scene)
 {
     float points[POINTS][3], got[POINTS];
+
     for (int i = 0; i < POINTS; i++) {
         for (int k = 0; k < 3; k++) {
             points[i][k] = (float)random_between(random, -SIZE, SIZE);
@@ -70,6 +72,7 @@ static void every_type_agrees(void **state)
     struct random random = {.state = 2024};
     size_t seen = 0;
     (void)state;
+
     for (size_t t = 0; t < node_type_count(); t++) {
         const struct node_type *type = node_type_at(t);
         for (int i = 0; i < SCENES && sdf_find(type); i++) {
@@ -89,5 +92,6 @@ static void every_type_agrees(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_type_agrees)};
+
     return cmocka_run_group_tests_name("engine at points", tests, NULL, NULL);
 }

@@ -521,5 +521,6 @@ int main(void)
         cmocka_unit_test(fog_adds_up_along_a_ray),
         cmocka_unit_test(fog_far),
     };
+
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -36,6 +36,7 @@ static void make_odd(struct random *random, const struct node_type *type, double
     double *lengths[SDF_PARAMS_MAX];
     bool may_be_zero[SDF_PARAMS_MAX];
     size_t count = 0;
+
     for (const struct param *param = type->record.params; param->name; param++) {
         int components = param_components(param->type);
         for (int i = 0; i < components && param->unit == UNIT_LENGTH; i++) {
@@ -65,6 +66,7 @@ static void make_odd(struct random *random, const struct node_type *type, double
 static bool is_bent(const struct node_type *type, const double *n)
 {
     double off = 0;
+
     for (int i = 0; i < 3; i++) {
         off += fabs(n[i] + n[6 + i] - n[3 + i] - n[9 + i]);
     }
@@ -83,6 +85,7 @@ static struct shape random_shape(struct random *random, const struct node_type *
     const struct random_limits limits = {.plain = true};
     const struct inside_oracle *oracle = inside_oracle_find(type->record.name);
     struct shape shape = {.type = type, .sdf = sdf_find(type)};
+
     if (!oracle) {
         fail_msg("no test knows what is inside of a %s", type->record.name);
         return shape;
@@ -155,6 +158,7 @@ static void to_surface(const struct shape *shape, const double p[3], double q[3]
 {
     double near[3] = {p[0], p[1], p[2]};
     bool in = inside(shape, p);
+
     for (int i = 0; i < 40 && between(near, q) > 1e-7; i++) {
         double middle[3];
         for (int j = 0; j < 3; j++) {
@@ -169,6 +173,7 @@ static bool gradient(const struct shape *shape, const double p[3], double out[3]
 {
     const double h = 1e-6;
     double length = 0;
+
     for (int i = 0; i < 3; i++) {
         double ahead[3] = {p[0], p[1], p[2]}, behind[3] = {p[0], p[1], p[2]};
         ahead[i] += h;
@@ -237,6 +242,7 @@ static double look_around(struct random *random, const struct shape *shape, cons
     double best[3] = {q[0], q[1], q[2]}, spread = 0.3;
     double nearest = between(p, best);
     bool in = inside(shape, p);
+
     for (int i = 0; i < LOOKS && spread > 1e-4; i++) {
         double offset[3], turned[3], there[3], length = 0;
         random_direction(random, offset);
@@ -264,6 +270,7 @@ static double nearest_of(struct random *random, const struct shape *shape,
     size_t order[NEAREST];
     double distances[NEAREST], nearest = INFINITY;
     size_t count = 0;
+
     for (size_t i = 0; i < cloud->count; i++) {
         double d = between(p, cloud->points[i]);
         if (count == NEAREST && d >= distances[count - 1]) {
@@ -311,6 +318,7 @@ static bool other_side_near(struct random *random, const struct shape *shape, co
 static bool is_reached(struct random *random, const struct shape *shape, const double p[3])
 {
     bool in = inside(shape, p);
+
     for (int i = 0; i < 12; i++) {
         double q[3], direction[3];
         random_direction(random, direction);
@@ -331,6 +339,7 @@ static void check_point(struct random *random, const struct shape *shape, const 
                         const double p[3])
 {
     double d = distance(shape, p);
+
     if (fabs(d) > 1e-7 && inside(shape, p) != (d < 0)) {
         fail_at(shape, "has the wrong sign", p, d, 0);
     }
@@ -355,6 +364,7 @@ static void check_row(struct random *random, const struct node_type *type)
 {
     static struct cloud cloud;
     size_t known = 0;
+
     for (int set = 0; set < SETS; set++) {
         struct shape shape = random_shape(random, type);
         cloud.count = 0;
@@ -392,5 +402,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(distances_are_those_of_the_words),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

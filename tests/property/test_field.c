@@ -19,6 +19,7 @@ static double distance_of(const char *root, double x, double y, double z)
     const double p[3] = {x, y, z};
     struct pair pair = pair_of(root, "");
     double d = field_distance(pair.field, p);
+
     pair_finish(&pair);
     return d;
 }
@@ -62,6 +63,7 @@ static void lengths_of_operations_are_scaled(void **state)
     (void)state;
     const char *scaled = "{'type':'round','params':{'radius':0.5},'transform':{"
                          "'scale':[3,3,3]},'children':[" BALL("") "]}";
+
     assert_near(distance_of(scaled, 10, 0, 0), 10 - 3 - 1.5);
     const char *shell = "{'type':'shell','params':{'thickness':0.25},'transform':{"
                         "'scale':[2,2,2]},'children':[" BALL("") "]}";
@@ -142,6 +144,7 @@ static struct pair explicit_copies(const char *child, const double spacing[3], c
     size_t length;
     FILE *out = open_memstream(&text, &length);
     const char *comma = "";
+
     assert_non_null(out);
     fprintf(out, "{'type':'union','children':[");
     int n[3];
@@ -169,6 +172,7 @@ static void repetition_is_copies(void **state)
     (void)state;
     struct random random = {21};
     int checked = 0;
+
     for (int round = 0; round < 150; round++) {
         const struct random_limits limits = {.bounded = true, .exact = true};
         double spacing[3];
@@ -250,6 +254,7 @@ static void twist_is_a_bound(void **state)
 {
     (void)state;
     struct random random = {22};
+
     for (int round = 0; round < 40; round++) {
         double rate = random_between(&random, -3, 3), height = random_between(&random, 0.5, 3);
         double width = random_between(&random, 0.3, 2);
@@ -298,6 +303,7 @@ static void twisted_planes_end_somewhere(void **state)
 {
     (void)state;
     const char *root = "{'type':'twist','children':[{'type':'plane'}]}";
+
     assert_true(distance_of(root, 0, -1, 0) < 0);
     assert_true(distance_of(root, SDF_TURN_RADIUS_MAX + 1, -1, 0) > 0);
 }
@@ -310,6 +316,7 @@ static void guards_change_no_surface(void **state)
 {
     (void)state;
     char text[4096] = "{'type':'union','children':[" BALL("");
+
     for (int i = 1; i < 6; i++) {
         size_t used = strlen(text);
         snprintf(text + used, sizeof text - used,
@@ -357,6 +364,7 @@ static void leaves_are_numbered_in_pre_order(void **state)
                         "'translation':[3,0,0]}}]}]}",
                 "");
     const double p[2][3] = {{-3, 0, 0}, {3, 0, 0}};
+
     assert_int_equal(field_surface(pair.field, p[0], NULL).number,
                      6); /* root 1, hidden 2 to 4, group 5 */
     assert_int_equal(field_surface(pair.field, p[1], NULL).number, 7);
@@ -373,6 +381,7 @@ static void materials_mix_by_the_derivative(void **state)
     (void)state;
     struct random random = {24};
     static const char *const types[] = {"smooth_union", "smooth_intersection", "smooth_difference"};
+
     for (int i = 0; i < 3; i++) {
         const struct sdf *sdf = sdf_find(node_type_find(types[i]));
         for (int k = 0; k < 10000; k++) {
@@ -409,6 +418,7 @@ static void materials_are_inherited(void **state)
                 "'materials':{'a':{'shader':'phong','properties':{'diffuse':[0.25,0,0]}},"
                 "'b':{'shader':'phong','properties':{'diffuse':[0.5,0,0]}}},");
     const double p[2][3] = {{0, 0, 0}, {9, 0, 0}};
+
     assert_near(field_surface(pair.field, p[0], NULL).material[0], 0.25);
     assert_near(field_surface(pair.field, p[1], NULL).material[0], 0.5);
     pair_finish(&pair);
@@ -424,6 +434,7 @@ static void rays_stop_at_surfaces(void **state)
     const double origin[3] = {0.25, 0.125, 9}, forward[3] = {0, 0, -1}, away[3] = {0, 0, 1};
     double t = field_march(pair.field, origin, forward, 100, 1e-9);
     double dent = 1 - sqrt(1 - 0.25 * 0.25 - 0.125 * 0.125);
+
     assert_near(t, 9 - dent);
     assert_near(field_march(pair.field, origin, forward, 8, 1e-9), -1);
     assert_near(field_march(pair.field, origin, away, 100, 1e-9), -1);
@@ -445,6 +456,7 @@ static void deep_and_wide_scenes_fit(void **state)
     char *text;
     size_t length;
     FILE *out = open_memstream(&text, &length);
+
     assert_non_null(out);
     for (int i = 0; i < LIMIT_NODE_DEPTH - 1; i++) {
         fprintf(out, "{'type':'%s','children':[" BALL("") ",", i % 2 ? "repeat" : "mirror");
@@ -497,5 +509,6 @@ int main(void)
         cmocka_unit_test(rays_stop_at_surfaces),
         cmocka_unit_test(deep_and_wide_scenes_fit),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -45,6 +45,7 @@ static void numbers_lie_where_the_header_says(void **state)
         2,        3,   4,     5,   6,    7,
     };
     size_t own = sizeof want / sizeof want[0];
+
     for (size_t i = 0; i < own; i++) {
         if (field->params[i] != want[i]) {
             fail_msg("number %zu is %g instead of %g", i, (double)field->params[i],
@@ -68,6 +69,7 @@ static void transforms_that_overflow_are_refused(void **state)
     (void)state;
     struct error err = {0};
     char text[4096] = "{'format':'fieldcast/1','root':";
+
     for (int i = 0; i < 4; i++) {
         char level[128];
         snprintf(level, sizeof level,
@@ -99,6 +101,7 @@ static void set_text(struct record *record, const char *name, const char *text)
 {
     struct error err = {0};
     cJSON *json = cJSON_CreateString(text);
+
     assert_true(record_set(record, record_type_find(record->type, name), json, "", &err));
     cJSON_Delete(json);
 }
@@ -112,6 +115,7 @@ static void numeric_edits_keep_the_shape(void **state)
     struct field *field = compile_field(scene);
     const uint64_t shape = field->structure_hash;
     char *map = shader_map(field), *surface = shader_surface(field);
+
     field_unref(field);
     for (int i = 0; i < 1000; i++) {
         struct node *node = random_below_node(&random, scene->root);
@@ -212,5 +216,6 @@ int main(void)
         cmocka_unit_test(numeric_edits_keep_the_shape),
         cmocka_unit_test(structural_changes_change_the_shape),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,6 +33,7 @@ static bool in_rectangle(const double p[2], const double *n)
 static bool in_round_rectangle(const double p[2], const double *n)
 {
     double radius = fmin(n[2], fmin(n[0], n[1]) / 2), sum = 0;
+
     for (int i = 0; i < 2; i++) {
         double core = n[i] / 2 - radius;
         double nearest = p[i] < -core ? -core : p[i] > core ? core : p[i];
@@ -47,6 +48,7 @@ static bool in_triangle2(const double p[2], const double *n)
     double ux = n[2] - n[0], uy = n[3] - n[1], vx = n[4] - n[0], vy = n[5] - n[1];
     double x = p[0] - n[0], y = p[1] - n[1], area = ux * vy - uy * vx;
     double s = (x * vy - y * vx) / area, t = (ux * y - uy * x) / area;
+
     return s > 0 && t > 0 && s + t < 1;
 }
 
@@ -54,6 +56,7 @@ static bool in_triangle2(const double p[2], const double *n)
 static bool in_corners(const double p[2], const double *corners, int count)
 {
     double sum = 0;
+
     for (int i = 0; i < count; i++) {
         const double *a = corners + 2 * i, *b = corners + 2 * ((i + 1) % count);
         double ax = a[0] - p[0], ay = a[1] - p[1], bx = b[0] - p[0], by = b[1] - p[1];
@@ -70,6 +73,7 @@ static bool in_polygon(const double p[2], const double *n)
 static bool in_turned_corners(const double p[2], int count, double even, double odd)
 {
     double corners[4 * 64];
+
     for (int i = 0; i < count; i++) {
         double angle = 2 * PI * i / count, radius = i % 2 ? odd : even;
         corners[2 * i] = radius * sin(angle);
@@ -91,6 +95,7 @@ static bool in_star(const double p[2], const double *n)
 static bool in_ring(const double p[2], const double *n)
 {
     double r = sqrt(p[0] * p[0] + p[1] * p[1]);
+
     return r > n[0] - n[1] / 2 && r < n[0] + n[1] / 2;
 }
 
@@ -99,6 +104,7 @@ typedef void line(const double *n, double t, double out[2]);
 static double to_point(line *at, const double p[2], const double *n, double t)
 {
     double q[2];
+
     at(n, t, q);
     return hypot(q[0] - p[0], q[1] - p[1]);
 }
@@ -108,6 +114,7 @@ static double to_point(line *at, const double p[2], const double *n, double t)
 static double to_line(line *at, const double p[2], const double *n, int parts)
 {
     double best = INFINITY, before = INFINITY, here = to_point(at, p, n, 0);
+
     for (int i = 0; i <= parts; i++) {
         double after = i < parts ? to_point(at, p, n, (i + 1.0) / parts) : INFINITY;
         double low = fmax(i - 1.0, 0) / parts, high = fmin(i + 1.0, parts) / parts;
@@ -139,12 +146,14 @@ static bool in_arc(const double p[2], const double *n)
 static bool in_vesica(const double p[2], const double *n)
 {
     double centre = fmin(n[1] / 2, n[0]);
+
     return hypot(p[0] - centre, p[1]) < n[0] && hypot(p[0] + centre, p[1]) < n[0];
 }
 
 static bool in_cross(const double p[2], const double *n)
 {
     double across = fmin(n[1], n[0]);
+
     return (fabs(p[0]) < n[0] / 2 && fabs(p[1]) < across / 2) ||
            (fabs(p[1]) < n[0] / 2 && fabs(p[0]) < across / 2);
 }
@@ -168,6 +177,7 @@ static bool in_heart(const double p[2], const double *n)
     double x = fabs(p[0]) / n[0], y = p[1] / n[0];
     bool square = x + fabs(y - 0.5) < 0.5;
     bool half_disc = x + y >= 1 && pow(x - 0.25, 2) + pow(y - 0.75, 2) < 0.125;
+
     return square || half_disc;
 }
 
@@ -254,6 +264,7 @@ static struct shape random_shape(struct random *random, const struct node_type *
     const struct random_limits limits = {.plain = true};
     struct scene *scene = random_scene(random, type, &limits);
     struct shape shape = {.type = type, .sdf = sdf_find(type), .words = words_of(type)};
+
     sdf_numbers(type->record.params, scene->root->params.values, shape.raw);
     shape_prepare(&shape);
     scene_destroy(scene);
@@ -263,6 +274,7 @@ static struct shape random_shape(struct random *random, const struct node_type *
 static double distance(const struct shape *shape, double x, double y)
 {
     const double p[3] = {x, y, 0};
+
     return shape->sdf->shape(p, shape->ready);
 }
 
@@ -307,6 +319,7 @@ static void nearest_point(const struct shape *shape, const double p[2], double d
     double x = distance(shape, p[0] + h, p[1]) - distance(shape, p[0] - h, p[1]);
     double y = distance(shape, p[0], p[1] + h) - distance(shape, p[0], p[1] - h);
     double length = fmax(hypot(x, y), 1e-30);
+
     out[0] = p[0] - d * x / length;
     out[1] = p[1] - d * y / length;
 }
@@ -315,6 +328,7 @@ static bool is_exact(const struct shape *shape, const double p[2], double d, boo
 {
     const struct words *words = shape->words;
     double nearest[2];
+
     if (in && words->line) {
         double depth = shape->raw[words->width] / 2 - to_line(words->line, p, shape->raw, 200);
         return fabs(-d - depth) < TOLERANCE;
@@ -329,6 +343,7 @@ static void check_point(const struct shape *shape, const double p[2])
 {
     double d = distance(shape, p[0], p[1]), nearer = fabs(d) - TOLERANCE;
     bool in = shape->words->inside(p, shape->raw);
+
     if (fabs(d) > 1e-6 && in != (d < 0)) {
         fail_at(shape, "has the wrong sign", p, d);
     }
@@ -347,6 +362,7 @@ static void distances_are_those_of_the_words(void **state)
     (void)state;
     struct random random = {21};
     size_t rows = 0;
+
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
         if (type->kind != KIND_FLAT) {
@@ -374,6 +390,7 @@ static void boxes_hold_the_shapes_and_have_no_end_along_z(void **state)
     (void)state;
     struct random random = {22};
     size_t solid = 0;
+
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
         for (int round = 0; round < 200 && type->kind == KIND_FLAT; round++) {
@@ -483,5 +500,6 @@ int main(void)
         cmocka_unit_test(boxes_hold_the_shapes_and_have_no_end_along_z),
         cmocka_unit_test(degenerate_shapes_have_distances),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -203,5 +203,6 @@ int main(void)
         cmocka_unit_test(other_pictures_are_noticed),
         cmocka_unit_test(rounds_end_with_the_same_picture),
     };
+
     return cmocka_run_group_tests_name("fragment", tests, start, end);
 }

@@ -59,6 +59,7 @@ static void round_trip(struct surface surfaces[SURFACES])
     struct egl egl;
     struct gl gl;
     GLuint buffer;
+
     assert_true(egl_init(&egl, &params, &err));
     assert_true(gl_load(&gl, &err));
     if (!pass_init(&pass, &gl, &(struct pass_source){true, NULL, "trip.glsl", own}, &err)) {
@@ -82,6 +83,7 @@ static void round_trip(struct surface surfaces[SURFACES])
 static float random_part(struct random *random, double most)
 {
     size_t kind = random_below(random, 4);
+
     return kind == 0 ? 0 : kind == 1 ? (float)most : (float)random_between(random, 0, most);
 }
 
@@ -98,6 +100,7 @@ static struct surface random_surface(struct random *random)
                         .ior = (float)random_between(random, 1, 4),
                         .transmission = random_part(random, 1),
                         .reflectivity = random_part(random, 1)};
+
     for (int i = 0; i < 3; i++) {
         s.diffuse[i] = random_light(random);
         s.specular[i] = random_part(random, 1);
@@ -126,6 +129,7 @@ static void compare(const struct surface *got, const struct surface *want)
 {
     double glow = fmax(want->emission[0], fmax(want->emission[1], want->emission[2]));
     double loss = fmax(want->absorption[0], fmax(want->absorption[1], want->absorption[2]));
+
     for (int i = 0; i < 3; i++) {
         assert_within("diffuse", got->diffuse[i], want->diffuse[i], half_room(want->diffuse[i]));
         assert_within("specular", got->specular[i], want->specular[i], 0.5001 / 1023);
@@ -146,6 +150,7 @@ static void surfaces_come_out_as_they_went_in(void **state)
     (void)state;
     static struct surface before[SURFACES], after[SURFACES];
     struct random random = {11};
+
     for (int i = 0; i < SURFACES; i++) {
         after[i] = before[i] = random_surface(&random);
     }
@@ -160,6 +165,7 @@ static void the_ends_of_ranges_hold(void **state)
 {
     (void)state;
     static struct surface surfaces[SURFACES];
+
     surfaces[0] = (struct surface){.diffuse = {1e9f, 1, 0},
                                    .emission = {1e30f, 0, 511.5f * 128},
                                    .specular = {1, 0, 2},
@@ -181,5 +187,6 @@ int main(void)
         cmocka_unit_test(surfaces_come_out_as_they_went_in),
         cmocka_unit_test(the_ends_of_ranges_hold),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,6 +60,7 @@ static void to_double(const float p[3], double out[3])
 static void fail_scene(size_t index, const char *what, double much, size_t point)
 {
     const float *p = batch.points[point];
+
     fail_msg("%s: %g at %.9g %.9g %.9g\n%s", what, much, (double)p[0], (double)p[1], (double)p[2],
              root_text(batch.scenes[index]));
 }
@@ -96,6 +97,7 @@ struct plan {
 static void change_numbers(struct random *random, size_t index, const struct random_limits *limits)
 {
     const uint64_t shape = batch.fields[index]->structure_hash;
+
     do {
         random_numbers(random, batch.scenes[index]->root, limits);
         field_unref(batch.fields[index]);
@@ -109,6 +111,7 @@ static void check_batch(struct random *random, const struct random_limits *limit
 {
     struct error err = {0};
     struct probe_program program;
+
     if (!probe_program_init(&program, &probe, batch.fields, batch.count, plan.surface,
                             plan.in_block, &err)) {
         fail_msg("%s", err.message);
@@ -170,6 +173,7 @@ static void every_row_agrees(void **state)
     struct random random = {1};
     const struct random_limits limits = {.depth = 1};
     const struct plan plan = {.rounds = 25, .points = 400, .surface = true};
+
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
         if (type->kind == KIND_MODEL || type->kind == KIND_CODE) {
@@ -193,6 +197,7 @@ static void nested_scenes_agree(void **state)
     struct random random = {2};
     struct random_limits limits = {.lean = true};
     struct plan plan = {.rounds = 2, .points = 64};
+
     for (int i = 0; i < 120; i++) {
         enum node_kind kind = (enum node_kind)(KIND_COMBINE + i % 4);
         limits.depth = 1 + i % 8;
@@ -212,6 +217,7 @@ static void numbers_may_come_from_a_block(void **state)
     (void)state;
     struct random random = {3};
     const struct random_limits limits = {.depth = 3, .lean = true};
+
     batch_add_random(&random, node_type_find("smooth_union"), -1, 0, &limits);
     check_batch(&random, &limits,
                 (struct plan){.rounds = 3, .points = 400, .surface = true, .in_block = true});
@@ -222,6 +228,7 @@ static void empty_scenes_compile(void **state)
     (void)state;
     struct error err = {0};
     struct probe_program program;
+
     batch_add(scene_create_empty());
     assert_true(probe_program_init(&program, &probe, batch.fields, 1, true, false, &err));
     probe_run(&probe, &program, batch.fields, 1, batch.points, 1, batch.answers);
@@ -235,6 +242,7 @@ static int set_up(void **state)
 {
     (void)state;
     struct error err = {0};
+
     if (!probe_init(&probe, &err)) {
         error_print(&err, stderr);
         return -1;
@@ -265,5 +273,6 @@ int main(void)
         cmocka_unit_test_teardown(numbers_may_come_from_a_block, empty_batch),
         cmocka_unit_test_teardown(empty_scenes_compile, empty_batch),
     };
+
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

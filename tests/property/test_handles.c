@@ -77,6 +77,7 @@ static double *numbers(const struct record *record, const char *name)
 static void adjust(const struct record *record)
 {
     const char *type = record->type->name;
+
     if (strcmp(type, "quad") == 0) { /* flat and convex */
         for (int i = 0; i < 3; i++) {
             numbers(record, "d")[i] =
@@ -100,6 +101,7 @@ static void adjust(const struct record *record)
 static struct record random_record(struct random *random, const struct record_type *type)
 {
     struct record record;
+
     record_init(&record, type);
     for (size_t i = 0; type->params[i].name; i++) {
         const struct param *param = &type->params[i];
@@ -139,6 +141,7 @@ static int points_of(const struct param *param, const struct record *record,
 {
     const int count = handle_points(param->handle, record, out);
     const int components = param_components(param->type);
+
     if (count != 1 && (count == 0 || count != components)) {
         fail_msg("%s.%s: %d points in \"%s\"", record->type->name, param->name, count,
                  param->handle);
@@ -158,6 +161,7 @@ static void visit_handles(uint64_t seed, bool (*chosen)(const struct node_type *
 {
     struct random random = {seed};
     int visited = 0;
+
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
         for (int set = 0; set < SETS && chosen(type); set++) {
@@ -182,6 +186,7 @@ static void direction_of(struct record *record, int index, int point, int compon
     const struct param *param = &record->type->params[index];
     double *number = &record->values[index].number[component], kept = *number, step = 1e-5;
     double before[HANDLE_POINTS][3], after[HANDLE_POINTS][3];
+
     *number = kept - step;
     points_of(param, record, before);
     *number = kept + step;
@@ -197,6 +202,7 @@ static void check_moves(struct record *record, int index)
     const struct param *param = &record->type->params[index];
     double points[HANDLE_POINTS][3], way[3];
     const int count = points_of(param, record, points);
+
     for (int k = 0; k < param_components(param->type); k++) {
         direction_of(record, index, count > 1 ? k : 0, k, way);
         if (!(hypot(hypot(way[0], way[1]), way[2]) > 0.02)) {
@@ -212,6 +218,7 @@ static void handles_move_with_their_values(void **state)
     struct random random = {1};
     int handles = 0;
     const struct record_type *type;
+
     for (size_t i = 0; (type = table_at(i)); i++) {
         for (int set = 0; set < SETS; set++) {
             struct record record = random_record(&random, type);
@@ -254,6 +261,7 @@ static double distance(const struct node_type *type, const struct record *record
 {
     const struct sdf *sdf = sdf_find(type);
     double n[SDF_NUMBERS_MAX];
+
     sdf_numbers(type->record.params, record->values, n);
     if (sdf->prepare) {
         sdf->prepare(n);
@@ -264,6 +272,7 @@ static double distance(const struct node_type *type, const struct record *record
 static void check_place(const struct record *record, int index, const double p[3])
 {
     const struct param *param = &record->type->params[index];
+
     for (int i = 0; i < 3; i++) {
         const double wanted =
             i < param_components(param->type) ? record->values[index].number[i] : 0;
@@ -278,6 +287,7 @@ static bool is_left(const struct node_type *type, const struct record *record, i
                     int component, const double p[3])
 {
     double *number = &record->values[index].number[component], kept = *number, most = 0;
+
     for (int i = 0; i < 2; i++) {
         *number = kept * (i ? 1.1 : 0.9);
         most = fmax(most, fabs(distance(type, record, p)));
@@ -291,6 +301,7 @@ static void check_surface(const struct node_type *type, const struct record *rec
     const struct param *param = &type->record.params[index];
     double points[HANDLE_POINTS][3];
     const int count = points_of(param, record, points);
+
     if (count == 1 && param_components(param->type) > 1) {
         check_place(record, index, points[0]);
         return;
@@ -361,6 +372,7 @@ static double beside(const struct field *field, const double p[3], const double 
     const double length = hypot(hypot(way[0], way[1]), way[2]);
     const double q[3] = {p[0] + by * way[0] / length, p[1] + by * way[1] / length,
                          p[2] + by * way[2] / length};
+
     return field_distance(field, q);
 }
 
@@ -371,6 +383,7 @@ static void check_modifier(const struct node_type *type, const struct record *re
     struct record moved = *record;
     double points[HANDLE_POINTS][3], way[3];
     const int count = points_of(param, record, points);
+
     assert_int_equal(count, param_components(param->type));
     for (int i = 0; i < count; i++) {
         direction_of(&moved, index, i, i, way);
@@ -407,6 +420,7 @@ static void the_handle_of_a_spot_is_on_its_cone(void **state)
     struct random random = {4};
     const struct record_type *type = &light_types[LIGHT_SPOT];
     const struct param *angle = &type->params[record_type_find(type, "angle")];
+
     for (int set = 0; set < SETS; set++) {
         struct record record = random_record(&random, type);
         double *way = numbers(&record, "direction"), points[HANDLE_POINTS][3];
@@ -437,5 +451,6 @@ int main(void)
         cmocka_unit_test(volumes_have_the_handles_of_shapes),
         cmocka_unit_test(the_handle_of_a_spot_is_on_its_cone),
     };
+
     return cmocka_run_group_tests_name("handles", tests, NULL, NULL);
 }

@@ -32,6 +32,7 @@ static bool is_hidden(const cJSON *node)
 static cJSON *empty_group(void)
 {
     cJSON *group = cJSON_CreateObject();
+
     cJSON_AddStringToObject(group, "type", "group");
     return group;
 }
@@ -40,6 +41,7 @@ static cJSON *empty_group(void)
 static void cut_to_operands(const cJSON *node, cJSON *children)
 {
     const char *type = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(node, "type"));
+
     while (strcmp(type, "morph") == 0 && cJSON_GetArraySize(children) > 2) {
         cJSON_DeleteItemFromArray(children, 2);
     }
@@ -59,6 +61,7 @@ static void prune_children(const cJSON *node, cJSON *children)
 {
     const char *type = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(node, "type"));
     bool of_first = strstr(type, "difference") != NULL;
+
     cut_to_operands(node, children);
     if (of_first && is_hidden(cJSON_GetArrayItem(children, 0))) {
         cJSON_ReplaceItemInArray(children, 0, empty_group());
@@ -69,6 +72,7 @@ static void prune_children(const cJSON *node, cJSON *children)
 static void prune(cJSON *node)
 {
     cJSON *children = cJSON_GetObjectItemCaseSensitive(node, "children"), *child;
+
     if (children) {
         prune_children(node, children);
         cJSON_ArrayForEach(child, children)
@@ -99,6 +103,7 @@ static void make_frame(cJSON *node)
 {
     const struct node_type *type =
         node_type_find(cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(node, "type")));
+
     if (type->kind == KIND_SHAPE || type->kind == KIND_FLAT || type->kind == KIND_CODE) {
         cJSON_ReplaceItemInObjectCaseSensitive(node, "type", cJSON_CreateString("group"));
         cJSON_DeleteItemFromObjectCaseSensitive(node, "params");
@@ -111,6 +116,7 @@ static bool isolate(cJSON *node, const struct isolated *isolated)
 {
     cJSON *children = cJSON_GetObjectItemCaseSensitive(node, "children");
     bool any = false;
+
     if (is_among(isolated, cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(node, "id")))) {
         return true;
     }
@@ -143,6 +149,7 @@ static struct scene *pruned(const struct scene *scene, const struct isolated *is
 {
     cJSON *document = scene_to_json(scene);
     cJSON *models = cJSON_GetObjectItemCaseSensitive(document, "models");
+
     if (isolated->count > 0 &&
         !isolate(cJSON_GetObjectItemCaseSensitive(document, "root"), isolated)) {
         fail_msg("nothing is isolated");
@@ -171,6 +178,7 @@ static struct field *compile_after(const struct scene *scene, const struct field
     const struct field_options options = {
         .drawn = drawn, .isolated = isolated->ids, .isolated_count = isolated->count};
     struct field *field = field_compile_as(scene, &options, &err);
+
     if (!field) {
         fail_msg("%s: %s", err.place, err.message);
     }
@@ -192,6 +200,7 @@ static void assert_same_at(const struct scene *scene, const struct field *a, con
                            const double p[3])
 {
     double got = field_distance(a, p), want = field_distance(b, p);
+
     if (got != want) {
         fail_msg("%.17g instead of %.17g at %g %g %g\n%s", got, want, p[0], p[1], p[2],
                  root_text(scene));
@@ -228,6 +237,7 @@ static void assert_same_field(struct random *random, const struct scene *scene,
 static void show(struct node *node, bool visible)
 {
     struct value *value = &node->common.values[record_type_find(node->common.type, "visible")];
+
     value->number[0] = visible;
     value->set = true;
 }
@@ -246,6 +256,7 @@ static void check_seen(struct random *random, const struct scene *scene, const s
 {
     struct scene *less = pruned(scene, isolated);
     struct field *kept = compile_after(scene, drawn, isolated), *want = compile_field(less);
+
     assert_true(kept->structure_hash == drawn->structure_hash);
     assert_same_field(random, scene, kept, want);
     field_unref(kept);
@@ -259,6 +270,7 @@ static void check_hidden(struct random *random, const struct scene *scene,
 {
     struct scene *less = pruned(scene, &none);
     struct field *left_out = compile_field(scene), *want = compile_field(less);
+
     check_seen(random, scene, drawn, &none);
     assert_same_field(random, scene, left_out, want);
     field_unref(left_out);
@@ -270,6 +282,7 @@ static void check_hidden(struct random *random, const struct scene *scene,
 static struct isolated isolate_some(struct random *random, const struct scene *scene)
 {
     struct isolated isolated = {.count = 1 + random_below(random, 3)};
+
     for (size_t i = 0; i < isolated.count; i++) {
         const struct node *node = scene->root;
         while (node->child_count > 0 && random_below(random, 4)) {
@@ -286,6 +299,7 @@ static void hidden_nodes_are_left_out(void **state)
     (void)state;
     struct random random = {31};
     struct random_limits limits = {.depth = 1};
+
     for (int i = 0; i < 600; i++) {
         enum node_kind kind = (enum node_kind)(KIND_COMBINE + i % 4);
         limits.depth = 1 + i % 4;
@@ -306,6 +320,7 @@ static void every_set_of_operands_may_be_hidden(void **state)
     (void)state;
     struct random random = {32};
     const struct random_limits limits = {.depth = 1};
+
     enum { OPERANDS = 3 };
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
@@ -329,6 +344,7 @@ static void isolated_nodes_are_alone(void **state)
     (void)state;
     struct random random = {35};
     struct random_limits limits = {.depth = 1};
+
     for (int i = 0; i < 600; i++) {
         enum node_kind kind = (enum node_kind)(KIND_COMBINE + i % 4);
         limits.depth = 1 + i % 4;
@@ -370,6 +386,7 @@ static void models_code_and_the_floor_are_no_exception(void **state)
     struct random random = {33};
     struct scene *scene = json_text_valid_scene(document);
     struct field *drawn = compile_field(scene);
+
     for (int i = 0; i < 300; i++) {
         hide_some(&random, scene->root, 4);
         hide_some(&random, scene->models.items[0]->root, 5);
@@ -383,6 +400,7 @@ static uint64_t shape_after(const struct scene *scene, const struct field *drawn
 {
     struct field *field = compile_after(scene, drawn, &none);
     uint64_t shape = field->structure_hash;
+
     field_unref(field);
     return shape;
 }
@@ -390,6 +408,7 @@ static uint64_t shape_after(const struct scene *scene, const struct field *drawn
 static double distance_at(const struct field *field, double x, double y, double z)
 {
     const double p[3] = {x, y, z};
+
     return field_distance(field, p);
 }
 
@@ -404,6 +423,7 @@ static void nodes_of_models_are_isolated_in_all_instances(void **state)
     struct field *two = compile_after(scene, drawn, &(struct isolated){{"two"}, 1});
     struct field *nobody = compile_after(scene, drawn, &(struct isolated){{"nobody"}, 1});
     struct field *rest = compile_after(scene, drawn, &(struct isolated){{"nobody", "pane"}, 2});
+
     assert_true(fabs(distance_at(code, 1, 0, 0) + 0.4) < 1e-6);
     assert_true(fabs(distance_at(code, 3, 0, 0) + 0.4) < 1e-6);
     assert_true(distance_at(code, 0, 0, 0) > 0.5);
@@ -428,6 +448,7 @@ static void what_was_never_drawn_is_left_out(void **state)
     (void)state;
     struct error err = {0};
     struct scene *scene = json_text_valid_scene(document);
+
     show(scene_find(scene, "cut"), false);
     struct field *drawn = compile_field(scene);
     show(scene_find(scene, "bead"), false);
@@ -479,6 +500,7 @@ static void compare(const struct scene *scene, const struct field *field, const 
     const double p[3] = {point[0], point[1], point[2]};
     double want = field_distance(field, p);
     bool empty = want >= FIELD_FAR;
+
     if (empty ? answer->distance < 1e8f : !(fabs(want - answer->distance) <= TOLERANCE)) {
         fail_msg("%g instead of %g at %g %g %g\n%s", (double)answer->distance, want, p[0], p[1],
                  p[2], root_text(scene));
@@ -493,6 +515,7 @@ static void check_round(struct random *random, const struct probe *probe,
 {
     static float points[GLSL_POINTS][3];
     static struct probe_answer answers[FIELDS_MAX * GLSL_POINTS];
+
     for (int i = 0; i < 3 * GLSL_POINTS; i++) {
         points[i / 3][i % 3] = (float)random_between(random, -SIZE, SIZE);
     }
@@ -517,6 +540,7 @@ static void check_batch(struct random *random, const struct probe *probe, struct
 {
     struct error err = {0};
     struct probe_program program;
+
     if (!probe_program_init(&program, probe, batch->drawn, batch->count, true, false, &err)) {
         fail_msg("%s", err.message);
     }
@@ -531,6 +555,7 @@ static void check_batch(struct random *random, const struct probe *probe, struct
 static int choice_of(const struct node_type *type)
 {
     int i = 0;
+
     while (type->record.params[i].name && type->record.params[i].type != PARAM_ENUM) {
         i++;
     }
@@ -540,6 +565,7 @@ static int choice_of(const struct node_type *type)
 static struct scene *scene_of_type(struct random *random, const struct node_type *type, int choice)
 {
     const struct random_limits limits = {.depth = 2, .lean = true};
+
     for (;;) {
         struct scene *scene = random_scene(random, type, &limits);
         if (choice >= 0) {
@@ -562,6 +588,7 @@ static void glsl_agrees(void **state)
     struct batch batch = {.count = 0};
     struct error err = {0};
     struct probe probe;
+
     assert_true(probe_init(&probe, &err));
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
@@ -595,5 +622,6 @@ int main(void)
         cmocka_unit_test(what_was_never_drawn_is_left_out),
         cmocka_unit_test(glsl_agrees),
     };
+
     return cmocka_run_group_tests_name("hidden nodes", tests, NULL, NULL);
 }

@@ -72,5 +72,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_floor_ends_in_a_line),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,6 +68,7 @@ static struct field *field_of(const char *text, const char *more)
 {
     struct error err = {0};
     char json[1024];
+
     snprintf(json, sizeof json,
              "{'format':'fieldcast/1','root':{'type':'implicit','params':{"
              "'equation':'%s','a':0.7%s}}}",
@@ -85,6 +86,7 @@ static struct equation *read(const char *text)
 {
     struct equation_errors errors;
     struct equation *equation = equation_read(text, letters, &errors);
+
     assert_non_null(equation);
     return equation;
 }
@@ -101,6 +103,7 @@ static int count_other_side(struct random *random, const struct equation *equati
                             const double p[3], double radius, double f)
 {
     int count = 0;
+
     for (int i = 0; i < SAMPLES; i++) {
         double way[3], q[3];
         random_direction(random, way);
@@ -117,6 +120,7 @@ static void the_sign_holds_within_the_distance(void **state)
 {
     struct random random = {.state = 15};
     (void)state;
+
     for (size_t e = 0; e < EQUATIONS; e++) {
         struct field *field = field_of(equations[e].text, ",'size':[6,6,6]");
         struct equation *equation = read(equations[e].text);
@@ -143,6 +147,7 @@ static void the_sign_holds_within_the_distance(void **state)
 static double around_clip(bool ball, const double p[3])
 {
     double square = 0;
+
     for (int i = 0; i < 3; i++) {
         const double beyond = ball ? fabs(p[i]) : fmax(fabs(p[i]) - 1, 0);
         square += beyond * beyond;
@@ -156,6 +161,7 @@ static size_t points_inside(struct random *random, bool ball, double out[INSIDE]
 {
     struct equation *equation = read("x^3 + y*z < 0.1");
     size_t count = 0;
+
     while (count < INSIDE) {
         random_point(random, 1, out[count]);
         const double clip = around_clip(ball, out[count]);
@@ -170,6 +176,7 @@ static void the_clip_is_the_distance_beyond_its_margin(void **state)
     static double inside[INSIDE][3];
     struct random random = {.state = 18};
     (void)state;
+
     for (int ball = 0; ball < 2; ball++) {
         const double margin = EQUATION_MARGIN * (ball ? 1 : sqrt(3));
         struct field *field =
@@ -207,6 +214,7 @@ static const char *const sheets[] = {OCTIC("x") " + " OCTIC("y") " + " OCTIC("z"
 static bool find_zero(const struct equation *equation, double p[3], double q[3])
 {
     const bool below = equation_value(equation, p, letter_values) < 0;
+
     if (below == (equation_value(equation, q, letter_values) < 0)) {
         return false;
     }
@@ -227,6 +235,7 @@ static void sheets_are_thin_and_whole(void **state)
 {
     struct random random = {.state = 20};
     (void)state;
+
     for (size_t e = 0; e < sizeof sheets / sizeof sheets[0]; e++) {
         struct field *field =
             field_of(sheets[e], ",'mode':'sheet','thickness':0.02,'size':[4,4,4]");
@@ -265,6 +274,7 @@ static void sheets_are_thin_and_whole(void **state)
 static double range_of(const struct code *code, const double p[3], const double half[2], int which)
 {
     const double numbers[] = {half[0], half[1], which};
+
     return code_distance(code, p, numbers, NULL);
 }
 
@@ -290,6 +300,7 @@ static struct code *range_code(enum equation_name name)
                  "return clamp(n[int(which)], -9e8, 9e8);\n}\n",
                  equation_sizes, equation_rules[name].range, one ? "jet_of(x, range_" : "jet_",
                  equation_functions[name].name, one ? "(x[2].xy))" : "(x, y)");
+
     assert_in_range(length, 1, sizeof text - 1);
     struct code *code =
         code_compile(&(struct code_source){CODE_DISTANCE, text, range_params, true}, &err);
@@ -303,6 +314,7 @@ static double function_value(enum equation_name name, double x, double y)
 {
     struct equation equation = {.count = 5, .left = 2, .right = 3};
     const double p[3] = {x, y, 0};
+
     equation.nodes[0] = (struct equation_node){.op = EQUATION_AXIS, .which = 0};
     equation.nodes[1] = (struct equation_node){.op = EQUATION_AXIS, .which = 1};
     equation.nodes[2] =
@@ -317,6 +329,7 @@ static double function_value(enum equation_name name, double x, double y)
 static bool range_holds(enum equation_name name, const struct code *code, struct random *random)
 {
     double p[3], half[2] = {random_between(random, 0, 0.6), random_between(random, 0, 0.6)}, n[6];
+
     random_point(random, 2.5, p);
     for (int i = 0; i < 6; i++) {
         n[i] = range_of(code, p, half, i);
@@ -348,6 +361,7 @@ static void ranges_hold_values_and_slopes(void **state)
 {
     struct random random = {.state = 19};
     (void)state;
+
     for (int name = 0; name < EQUATION_FUNCTIONS; name++) {
         struct code *code = range_code((enum equation_name)name);
         for (int i = 0; i < POINTS; i++) {
@@ -376,6 +390,7 @@ static void the_engine_agrees(void **state)
 {
     struct random random = {.state = 16};
     (void)state;
+
     for (size_t e = 0; e < EQUATIONS; e++) {
         static const char *const forms[] = {"", ",'mode':'sheet','thickness':0.1",
                                             ",'clip':'ball','radius':1.2"};
@@ -457,5 +472,6 @@ int main(void)
         cmocka_unit_test(the_engine_agrees),
         cmocka_unit_test(the_bound_comes_near),
     };
+
     return cmocka_run_group_tests_name("implicit equations", tests, NULL, NULL);
 }

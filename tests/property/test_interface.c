@@ -149,6 +149,7 @@ static void every_type_of_volume_has_its_extent(void **state)
 static void write_alone(const char *name, char *out, size_t size)
 {
     static const char store[] = "#include \"sample_sink.glsl\"\n";
+
     const struct {
         const char *name, *rest;
     } rows[] = {{"secondary_rays.glsl", store},
@@ -233,5 +234,6 @@ int main(void)
         cmocka_unit_test(an_unknown_file_is_told),
         cmocka_unit_test(lines_keep_their_numbers),
     };
+
     return cmocka_run_group_tests(tests, formula_start, formula_end);
 }

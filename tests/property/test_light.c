@@ -174,5 +174,6 @@ int main(void)
         cmocka_unit_test(points_fade_by_the_square),
         cmocka_unit_test(spots_end_at_their_rim),
     };
+
     return cmocka_run_group_tests(tests, formula_start, formula_end);
 }

@@ -313,5 +313,6 @@ int main(void)
         cmocka_unit_test(open_ground_is_not_occluded),
         cmocka_unit_test(white_furnace_hides_white_balls),
     };
+
     return cmocka_run_group_tests(tests, start, end);
 }

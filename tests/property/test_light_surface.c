@@ -36,6 +36,7 @@
 static void set_above(struct random *random, float out[4])
 {
     const double z = random_between(random, 0.1, 1), turn = random_between(random, 0, 6.2831853);
+
     out[0] = (float)(sqrt(1 - z * z) * cos(turn));
     out[1] = (float)(sqrt(1 - z * z) * sin(turn));
     out[2] = (float)z;
@@ -215,5 +216,6 @@ int main(void)
         cmocka_unit_test(what_mirrors_nothing_head_on_mirrors_nothing),
         cmocka_unit_test(matt_phong_is_lambert),
     };
+
     return cmocka_run_group_tests(tests, formula_start, formula_end);
 }

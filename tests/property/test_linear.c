@@ -217,5 +217,6 @@ int main(void)
         cmocka_unit_test(means_of_what_a_screen_can_show_are_plain),
         cmocka_unit_test(edges_of_lamps_are_smooth),
     };
+
     return cmocka_run_group_tests_name("linear light", tests, start, end);
 }

@@ -30,6 +30,7 @@ static struct hit march(const struct field *field, const double origin[3],
                         const double direction[3], int parts)
 {
     struct hit hit = {0};
+
     for (int step = 0; step < STEPS_MAX * parts; step++) {
         double p[3];
         for (int i = 0; i < 3; i++) {
@@ -70,6 +71,7 @@ static void check_ray(struct tally *tally, const struct scene *scene, const stru
                       const double origin[3], const double direction[3])
 {
     struct hit whole = march(field, origin, direction, 1), quarter = {.lost = true};
+
     if (!whole.lost) {
         quarter = march(field, origin, direction, 4);
     }
@@ -105,6 +107,7 @@ static void check_picture(struct random *random, struct tally *tally, const stru
 {
     struct field *field = compile_field(scene);
     double back[3], any[3], right[3], up[3], origin[3];
+
     random_direction(random, back);
     random_direction(random, any);
     cross(back, any, right);
@@ -133,6 +136,7 @@ static void no_row_oversteps(void **state)
     struct random random = {31};
     struct tally tally = {0};
     bool ok = true;
+
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
         if (type->kind == KIND_MODEL || type->kind == KIND_CODE) {
@@ -155,6 +159,7 @@ static void no_scene_oversteps(void **state)
     struct random random = {32};
     struct tally tally = {0};
     bool ok = true;
+
     for (int i = 0; i < 100; i++) {
         const struct random_limits limits = {.depth = 1 + i % 4, .bounded = true};
         enum node_kind kind = (enum node_kind)(KIND_COMBINE + i / 4 % 4);
@@ -172,5 +177,6 @@ int main(void)
         cmocka_unit_test(no_row_oversteps),
         cmocka_unit_test(no_scene_oversteps),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,6 +30,7 @@ static struct pair pair_of(const char *parts, const char *root)
 {
     char text[4096];
     struct pair pair;
+
     snprintf(text, sizeof text, "{'format':'fieldcast/1',%s'root':%s}", parts, root);
     pair.scene = json_text_valid_scene(text);
     pair.field = compile_field(pair.scene);
@@ -45,6 +46,7 @@ static void pair_finish(struct pair *pair)
 static void random_points(float out[POINTS][3])
 {
     struct random random = {7};
+
     for (int i = 0; i < POINTS; i++) {
         for (int j = 0; j < 3; j++) {
             out[i][j] = (float)random_between(&random, -3, 3);
@@ -60,6 +62,7 @@ static void ask(const struct field *field, float field_mask, float (*points)[3],
     struct probe probe;
     struct probe_program program;
     struct field *const fields[] = {(struct field *)field};
+
     assert_true(probe_init(&probe, &err));
     probe.field_mask = field_mask;
     if (!probe_program_init(&program, &probe, fields, 1, true, false, &err)) {
@@ -130,6 +133,7 @@ static void a_blend_of_models_has_one_of_them(void **state)
     struct pair pair =
         pair_of(TWO("{'shader':'standard','properties':{'roughness':0.25,'ior':1.5}}",
                     "{'shader':'phong','properties':{'shininess':100,'ior':2.5}}"));
+
     for (int i = -5; i <= 5; i++) {
         const double p[3] = {0.03 + 0.1 * i, 0.4, 0};
         struct field_surface at = field_surface(pair.field, p, NULL);
@@ -155,6 +159,7 @@ static void colours_of_ours_agree(void **state)
                 "{'type':'union','children':[{'type':'box','material':'c',"
                 "'transform':{'translation':[1,0,0],'rotation':[0,0.4,0]}},"
                 "{'type':'sphere','material':'n','transform':{'translation':[-1,0,0]}}]}");
+
     random_points(points);
     ask(pair.field, 0, points, POINTS, answers);
     assert_int_equal(pair.field->shader_count, 2);
@@ -197,6 +202,7 @@ static void a_face_between_two_cubes_has_the_inner_colour(void **state)
     struct pair pair = pair_of("'materials':{'c':{'shader':'checker','properties':{"
                                "'color1':[1,1,1],'color2':[0,0,0]}}},",
                                "{'type':'box','material':'c','params':{'size':[2,2,2]}}");
+
     for (int axis = 0; axis < 3; axis++) {
         for (int side = -1; side <= 1; side++) {
             double in[3] = {0.3, 0.3, 0.3}, low[3] = {0.3, 0.3, 0.3}, high[3] = {0.3, 0.3, 0.3};
@@ -215,6 +221,7 @@ static void only_code_of_users_is_theirs(void **state)
     (void)state;
     struct pair none = pair_of("'materials':{'a':{'shader':'blinn'},'c':{'shader':'checker'}},",
                                "{'type':'sphere','material':'a'}");
+
     assert_int_equal(none.field->shader_count, 0); /* nothing wears it, so nobody pays */
     struct pair both =
         pair_of("'shaders':{'mine':{'code':'vec3 shade() { return vec3(1); }'}},"
@@ -252,6 +259,7 @@ static struct pair clear_scene(const char *transmission, const char *plate, cons
                                const char *clear)
 {
     char parts[512], root[2048];
+
     snprintf(parts, sizeof parts, CLEAR, transmission);
     snprintf(root, sizeof root, ROOT, plate, solid, clear, clear);
     return pair_of(parts, root);
@@ -263,6 +271,7 @@ static void assert_sees(const struct field *all, float field_mask, const struct 
 {
     static float points[POINTS][3];
     static struct probe_answer answers[POINTS];
+
     random_points(points);
     ask(all, field_mask, points, POINTS, answers);
     for (int i = 0; i < POINTS; i++) {
@@ -279,6 +288,7 @@ static void either_kind_can_be_looked_at_alone(void **state)
 {
     (void)state;
     struct pair all = clear_scene("0.8", "", "true", "true");
+
     /* Without any glass or veil; the ball in the difference takes all of it along. */
     struct pair solid =
         pair_of("", "{'type':'union','children':[{'type':'sphere'},"
@@ -305,6 +315,7 @@ static void what_is_clear_lies_in_its_box(void **state)
     (void)state;
     struct pair all = clear_scene("0.8", "", "true", "true");
     const struct bounds *box = &all.field->transmissive_bounds;
+
     assert_true(all.field->transmissive);
     /* The ball with the bite, the blend as a whole, the veils; not the plate above. */
     assert_true(box->high[0] >= 2 && box->high[0] < 2.1);
@@ -327,6 +338,7 @@ static void transmission_compiles_nothing(void **state)
     (void)state;
     struct pair some = clear_scene("0.001", "", "true", "true");
     struct pair none = clear_scene("0", "glass", "true", "true");
+
     assert_true(some.field->structure_hash == none.field->structure_hash);
     pair_finish(&some);
     pair_finish(&none);
@@ -341,6 +353,7 @@ static void transmission_compiles_nothing(void **state)
 static struct pair floor_scene(const char *height, const char *reflectivity, const char *root)
 {
     char parts[256];
+
     snprintf(parts, sizeof parts, FLOOR, height, reflectivity);
     return pair_of(parts, root);
 }
@@ -354,6 +367,7 @@ static void the_floor_is_a_leaf_of_its_own(void **state)
     const struct field *field = pair.field;
     const double below[3] = {9, -2, 9}, above[3] = {3, -1, 0};
     struct field_surface at = field_surface(field, below, NULL);
+
     assert_true(fabs(at.distance + 0.5) < 1e-9);
     assert_true(fabs(field_distance(field, above) - 0.5) < 1e-9);
     assert_int_equal(at.number, 4); /* behind all three nodes */
@@ -379,6 +393,7 @@ static void a_floor_needs_no_scene(void **state)
     static float points[POINTS][3];
     static struct probe_answer answers[POINTS];
     struct pair pair = floor_scene("1", "0", "{'type':'group'}");
+
     random_points(points);
     ask(pair.field, 0, points, POINTS, answers);
     for (int i = 0; i < POINTS; i++) {
@@ -403,5 +418,6 @@ int main(void)
         cmocka_unit_test(the_floor_is_a_leaf_of_its_own),
         cmocka_unit_test(a_floor_needs_no_scene),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

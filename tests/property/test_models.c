@@ -22,6 +22,7 @@ enum { POINTS = 2000 };
 static struct scene *scene_of(const char *parts, const char *root)
 {
     char text[8192];
+
     snprintf(text, sizeof text, "{'format':'fieldcast/1',%s'root':%s}", parts, root);
     return json_text_valid_scene(text);
 }
@@ -29,6 +30,7 @@ static struct scene *scene_of(const char *parts, const char *root)
 static void random_points(float out[POINTS][3], uint64_t seed)
 {
     struct random random = {seed};
+
     for (int i = 0; i < POINTS; i++) {
         for (int j = 0; j < 3; j++) {
             out[i][j] = (float)random_between(&random, -3, 3);
@@ -51,6 +53,7 @@ static void instances_are_what_they_stand_for(void **state)
     (void)state;
     static float points[POINTS][3];
     char models[1024], written[2048], pair[512], other[512];
+
     snprintf(pair, sizeof pair, PAIR, "pair");
     snprintf(other, sizeof other, PAIR, "other");
     snprintf(models, sizeof models, MATERIALS "'models':{'pair':%s},", pair);
@@ -92,6 +95,7 @@ static void assert_too_much(int levels, const char *child, const char *word)
     char *text = NULL;
     size_t length = 0;
     FILE *out = open_memstream(&text, &length);
+
     assert_non_null(out);
     fprintf(out, "{'format':'fieldcast/1','models':{'m0':%s", child);
     for (int i = 1; i <= levels; i++) {
@@ -183,6 +187,7 @@ static void code_is_the_same_in_both_languages(void **state)
     struct probe_program program;
     struct scene *scene = scene_of(CODE, ROOT);
     struct field *field = compile_field(scene);
+
     assert_int_equal(field->code_count, 2);
     assert_int_equal(field->shader_count, 2);
     assert_true(probe_init(&probe, &err));
@@ -219,6 +224,7 @@ static void numbers_of_code_compile_nothing(void **state)
               "'children':[{'type':'field','params':{"
               "'code':'float sdf(vec3 p) { return max(length(p) - 0.3, p.y); }'}}]}]}");
     struct field *a = compile_field(scene), *b = compile_field(other);
+
     assert_true(a->structure_hash == b->structure_hash);
     field_unref(a);
     field_unref(b);
@@ -262,6 +268,7 @@ static void code_is_tried_out(void **state)
         "'code':'float sdf(vec3 p) {\\n float r = length(p);\\n return r / by - 1.0;\\n}'}},",
         "{'type':'field','params':{'primitive':'hole'}}");
     struct field *field = compile_field(scene);
+
     assert_false(field_try(field, &warning, &err));
     assert_int_equal(err.kind, ERROR_COMPILE);
     assert_string_equal(err.place, "/primitives/hole/code");
@@ -287,6 +294,7 @@ static void a_box_cuts_code(void **state)
                      "'code':'float sdf(vec3 p) { return length(p) - 5.0; }'}}");
     struct field *field = compile_field(scene);
     const double inside[3] = {0, 3, 0}, outside[3] = {4, 0, 0}, far[3] = {0, 13, 0};
+
     assert_true(fabs(field_distance(field, inside) - -1) < 1e-5);
     assert_true(fabs(field_distance(field, outside) - 3) < 1e-5);
     assert_true(fabs(field_distance(field, far) - 3) < 1e-5);
@@ -306,5 +314,6 @@ int main(void)
         cmocka_unit_test(code_is_tried_out),
         cmocka_unit_test(a_box_cuts_code),
     };
+
     return cmocka_run_group_tests_name("models and code", tests, NULL, NULL);
 }

@@ -27,6 +27,7 @@ static double distance_at(const char *root, double x, double y, double z)
     const double p[3] = {x, y, z};
     struct field *field = modified_field(root);
     double d = field_distance(field, p);
+
     field_unref(field);
     return d;
 }
@@ -40,6 +41,7 @@ static bool is_modifier(const struct node_type *type)
 static bool is_told_by_words(const struct modified *modified)
 {
     const double *n = modified->n;
+
     return strcmp(modified->type->record.name, "repeat") != 0 ||
            (n[3] >= 0 && n[4] >= 0 && n[5] >= 0 &&
             modified->whole->loop_trips < SDF_REPEAT_CELLS_MAX - 25);
@@ -75,6 +77,7 @@ static void fields_are_bounds_of_what_the_words_say(void **state)
     (void)state;
     struct random random = {41};
     size_t rows = 0;
+
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
         modified_meaning *inside = modified_meaning_find(type->record.name);
@@ -103,6 +106,7 @@ static void boxes_hold_what_they_bound(void **state)
 {
     (void)state;
     struct random random = {51};
+
     for (size_t i = 0; i < node_type_count(); i++) {
         for (int round = 0; round < 150 && is_modifier(node_type_at(i)); round++) {
             struct modified modified = modified_random(&random, node_type_at(i), round % 2);
@@ -123,6 +127,7 @@ static void no_modifier_makes_a_field_steeper(void **state)
 {
     (void)state;
     struct random random = {42};
+
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
         bool copies = strncmp(type->record.name, "repeat", 6) == 0;
@@ -145,6 +150,7 @@ static void assert_tight(const char *root, double x, double y, double z)
     struct random random = {43};
     struct field *field = modified_field(root);
     double worst = 0;
+
     for (int k = 0; k < 40000; k++) {
         double normal[3], p[3] = {x, y, z}, q[3];
         for (int i = 0; i < 3; i++) {
@@ -193,6 +199,7 @@ static void factors_are_no_greater_than_they_must_be(void **state)
 static struct field *scaled_field(const struct modified *modified, double scale)
 {
     char *text;
+
     if (asprintf(&text, "{'type':'group','transform':{'scale':%.17g},'children':[%s]}", scale,
                  modified->text) < 0) {
         abort();
@@ -206,6 +213,7 @@ static void modifiers_scale(void **state)
 {
     (void)state;
     struct random random = {44};
+
     for (size_t i = 0; i < node_type_count(); i++) {
         for (int round = 0; round < 60 && is_modifier(node_type_at(i)); round++) {
             struct modified modified = modified_random(&random, node_type_at(i), true);
@@ -252,6 +260,7 @@ static void assert_same(const char *a, const char *b)
 {
     struct random random = {47};
     struct field *fields[2] = {modified_field(a), modified_field(b)};
+
     for (int k = 0; k < 1000; k++) {
         double p[3];
         random_point(&random, 2, p);
@@ -304,5 +313,6 @@ int main(void)
         cmocka_unit_test(loops_are_counted),
         cmocka_unit_test(sections_make_known_shapes),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

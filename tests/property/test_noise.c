@@ -22,6 +22,7 @@ static void noise_keeps_its_bounds(void **state)
     (void)state;
     struct random random = {48};
     double steepest = 0, greatest = 0, sum = 0;
+
     for (int k = 0; k < 200000; k++) {
         double p[3], q[3], direction[3];
         random_point(&random, 30, p);
@@ -47,6 +48,7 @@ static void noise_is_what_its_whole_points_say(void **state)
     (void)state;
     struct random random = {49};
     int same = 0;
+
     for (int k = 0; k < 1000; k++) {
         uint32_t at[3], seed = (uint32_t)random_below(&random, 1000000);
         double p[3], far[3];
@@ -72,5 +74,6 @@ int main(void)
         cmocka_unit_test(noise_keeps_its_bounds),
         cmocka_unit_test(noise_is_what_its_whole_points_say),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -186,6 +186,7 @@ static void the_reach_follows_the_camera(void **state)
     (void)state;
     struct image own = draw(wall, "'occlusion_reach':0.3"), follows = draw(wall, "");
     struct image farther = draw(wall, "'occlusion_reach':0.6");
+
     assert_true(drawing_is_same(&own, &follows));
     assert_false(drawing_is_same(&own, &farther));
     image_finish(&own);
@@ -201,6 +202,7 @@ static void the_strength_scales_what_is_kept_off(void **state)
     struct image none = draw(wall, "'occlusion_strength':0,'occlusion_reach':1");
     struct image most = draw(wall, "'occlusion_strength':4,'occlusion_reach':1");
     int black = 0;
+
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         assert_true(fabs(dark_at(&half, i) - 0.5 * dark_at(&whole, i)) < 1e-3);
         assert_true(dark_at(&none, i) == 0);
@@ -222,5 +224,6 @@ int main(void)
         cmocka_unit_test(the_reach_follows_the_camera),
         cmocka_unit_test(the_strength_scales_what_is_kept_off),
     };
+
     return cmocka_run_group_tests_name("occlusion", tests, start, end);
 }

@@ -26,12 +26,14 @@ static const struct sdf *row(const char *type)
 static const struct param *kernel_param(void)
 {
     const struct record_type *record = &node_type_find("smooth_union")->record;
+
     return &record->params[record_type_find(record, "kernel")];
 }
 
 static size_t kernel_count(void)
 {
     size_t count = 0;
+
     while (kernel_param()->choices[count]) {
         count++;
     }
@@ -69,6 +71,7 @@ static double polynomial(double a, double b, double k, int n)
 static double circular(double a, double b, double k)
 {
     double y = 1 - step_of(a, b, k);
+
     return fmin(a, b) - k * (1 - (y + sqrt(2 - y * y)) / 2);
 }
 
@@ -85,6 +88,7 @@ static double root(double a, double b, double k)
 static double power_form(double a, double b, double k)
 {
     double x = pow(a, k), y = pow(b, k);
+
     return fmin(a, b) > 0 ? pow(x * y / (x + y), 1 / k) : fmin(a, b);
 }
 
@@ -101,6 +105,7 @@ static const struct closed_form {
 static const struct closed_form *closed_form_of(size_t kernel)
 {
     const char *name = kernel_param()->choices[kernel];
+
     for (size_t i = 0; i < sizeof closed_forms / sizeof closed_forms[0]; i++) {
         if (strcmp(closed_forms[i].kernel, name) == 0) {
             return &closed_forms[i];
@@ -114,12 +119,14 @@ static const struct closed_form *closed_form_of(size_t kernel)
 static double printed(double a, double b, const double n[3])
 {
     const struct closed_form *form = closed_form_of((size_t)n[1]);
+
     return form->blend ? form->blend(a, b, n[0]) : polynomial(a, b, n[0], (int)n[2]);
 }
 
 static double smooth_union(double a, double b, const double n[3])
 {
     double share;
+
     return row("smooth_union")->combine(a, b, n, &share);
 }
 
@@ -132,6 +139,7 @@ static void kernels_are_their_printed_formulas(void **state)
 {
     (void)state;
     struct random random = {31};
+
     assert_int_equal(kernel_count(), sizeof closed_forms / sizeof closed_forms[0]);
     for (size_t kernel = 0; kernel < kernel_count(); kernel++) {
         for (int i = 0; i < 2000; i++) {
@@ -150,6 +158,7 @@ static void kernels_are_their_printed_formulas(void **state)
 static double kernel_index(const char *name)
 {
     size_t kernel = 0;
+
     while (strcmp(kernel_param()->choices[kernel], name) != 0) {
         kernel++;
     }
@@ -161,6 +170,7 @@ static void orders_with_names_are_polynomials(void **state)
     (void)state;
     static const char *const names[] = {"quadratic", "cubic", "quartic"};
     struct random random = {38};
+
     for (int i = 0; i < 3000; i++) {
         double a = random_between(&random, -1, 1), b = random_between(&random, -1, 1);
         const double named[3] = {0.7, kernel_index(names[i % 3]), 9};
@@ -176,6 +186,7 @@ static void compact_kernels_reach_as_far_as_k(void **state)
 {
     (void)state;
     struct random random = {32};
+
     for (size_t kernel = 0; kernel < kernel_count(); kernel++) {
         for (int i = 0; i < 1000 && closed_form_of(kernel)->compact; i++) {
             const double n[3] = {random_between(&random, 0.01, 2), (double)kernel,
@@ -196,6 +207,7 @@ static void far_operands_do_no_harm(void **state)
     (void)state;
     static const double far[] = {1e9, -1e9, 1e20, -1e20, 1e-30, 0, -1e-30};
     static const double ks[] = {1e-7, 1e-3, 1, 1e3, 1e6};
+
     for (size_t kernel = 0; kernel < kernel_count(); kernel++) {
         for (size_t i = 0; i < 7 * 7 * 5; i++) {
             double a = far[i % 7], b = far[i / 7 % 7], share;
@@ -223,6 +235,7 @@ static void random_numbers_of(struct random *random, const struct node_type *typ
                               double n[3])
 {
     bool power = kernels_of(type) > 1 && closed_form_of(kernel)->blend == power_form;
+
     n[0] = type->record.params[0].name ? random_between(random, 0.05, 1) : 0;
     n[0] = power ? 1 + 3 * n[0] : n[0];
     n[1] = (double)kernel;
@@ -248,6 +261,7 @@ static void for_each_operation(struct random *random, int rounds, check *run)
 static double combine(const struct node_type *type, double a, double b, const double *n)
 {
     double share;
+
     return sdf_find(type)->combine(a, b, n, &share);
 }
 
@@ -261,6 +275,7 @@ static void check_share(struct random *random, const struct node_type *type, con
 {
     const double h = 1e-5;
     double a = random_between(random, -1, 1), b = random_between(random, -1, 1), share;
+
     if (is_edge(a, b)) {
         return;
     }
@@ -277,6 +292,7 @@ static void shares_are_derivatives(void **state)
 {
     (void)state;
     struct random random = {33};
+
     for_each_operation(&random, 3000, check_share);
 }
 
@@ -288,6 +304,7 @@ static void check_steepness(struct random *random, const struct node_type *type,
                                        : random_between(random, -1, 1);
     double there = combine(type, a + random_between(random, -step, step),
                            b + random_between(random, -step, step), n);
+
     if (!(fabs(there - combine(type, a, b, n)) <= step * (1 + 1e-9) + 1e-12)) {
         fail_msg("%s, kernel %g, k %g: too steep at %g %g", type->record.name, n[1], n[0], a, b);
     }
@@ -297,6 +314,7 @@ static void nothing_gets_steeper(void **state)
 {
     (void)state;
     struct random random = {34};
+
     for_each_operation(&random, 20000, check_steepness);
 }
 
@@ -304,6 +322,7 @@ static double fold(const struct node_type *type, const double *operands, size_t 
                    const double *n)
 {
     double d = operands[0];
+
     for (size_t i = 1; i < count; i++) {
         d = combine(type, d, operands[i], n);
     }
@@ -318,6 +337,7 @@ static void check_lowered(struct random *random, const struct node_type *type, c
     double operands[OPERANDS_MAX] = {0}, least = INFINITY;
     size_t count = 2 + random_below(random, OPERANDS_MAX - 1);
     bool equal = random_below(random, 2);
+
     for (size_t i = 0; i < count; i++) {
         operands[i] = i && equal ? operands[0] : random_between(random, -0.2, 1);
         least = fmin(least, operands[i]);
@@ -338,6 +358,7 @@ static void blends_are_lowered_as_far_as_they_say(void **state)
 {
     (void)state;
     struct random random = {35};
+
     for_each_operation(&random, 2000, check_lowered);
     /* Very many children of one blend. */
     const double n[3] = {0.1, 0, 0};
@@ -349,6 +370,7 @@ static void blends_are_lowered_as_far_as_they_say(void **state)
 static struct scene *scene_of(const char *root)
 {
     char *text;
+
     if (asprintf(&text, "{'format':'fieldcast/1','root':%s}", root) < 0) {
         abort();
     }
@@ -361,6 +383,7 @@ static struct field *field_of(const char *root)
 {
     struct scene *scene = scene_of(root);
     struct field *field = compile_field(scene);
+
     scene_destroy(scene);
     return field;
 }
@@ -382,6 +405,7 @@ static char *operation_text(const struct node_type *type, const double n[3], con
 {
     const struct param *params = type->record.params;
     char *text, numbers[96] = "";
+
     if (params[0].name) {
         snprintf(numbers, sizeof numbers, "'%s':%.9g", params[0].name, n[0]);
     }
@@ -400,6 +424,7 @@ static void check_in_scenes(struct random *random, const struct node_type *type,
 {
     char more[96];
     double scale = pow(2, random_between(random, -4, 4));
+
     snprintf(more, sizeof more, ",'transform':{'scale':%.17g}", scale);
     char *plain = operation_text(type, n, ""), *scaled = operation_text(type, n, more);
     struct field *a = field_of(plain), *b = field_of(scaled);
@@ -427,6 +452,7 @@ static void operations_fold_their_children_and_scale(void **state)
 {
     (void)state;
     struct random random = {36};
+
     for_each_operation(&random, 20, check_in_scenes);
 }
 
@@ -435,6 +461,7 @@ static double distance_at(const char *root, double x, double y, double z)
     const double p[3] = {x, y, z};
     struct field *field = field_of(root);
     double d = field_distance(field, p);
+
     field_unref(field);
     return d;
 }
@@ -445,6 +472,7 @@ static void exclusive_is_an_odd_number_of_children(void **state)
     struct random random = {37};
     struct field *field = field_of("{'type':'exclusive'," BALLS "}");
     int seen[4] = {0};
+
     for (int i = 0; i < 10000; i++) {
         double p[3], d[3];
         for (int j = 0; j < 3; j++) {
@@ -465,6 +493,7 @@ static void a_power_is_at_least_one(void **state)
 {
     (void)state;
     double small[3] = {0.1, kernel_index("power"), 0}, one[3] = {1, small[1], 0};
+
     row("smooth_union")->scale(small, 7);
     row("smooth_union")->scale(one, 0.1);
     assert_true(small[0] == 1 && one[0] == 1);
@@ -506,5 +535,6 @@ int main(void)
         cmocka_unit_test(exclusive_is_an_odd_number_of_children),
         cmocka_unit_test(morph_goes_from_the_first_to_the_second),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -132,6 +132,7 @@ struct life {
 static float *copy_numbers(const struct field *field)
 {
     const size_t size = field->vec4_count * 4 * sizeof *field->params;
+
     return memcpy(malloc(size), field->params, size);
 }
 
@@ -155,6 +156,7 @@ static void let_go(struct life *life, struct held_field *held)
 static void hold(struct life *life, struct field *field)
 {
     struct held_field *held = &life->held[random_below(life->random, HELD)];
+
     let_go(life, held);
     *held = (struct held_field){field, copy_numbers(field)};
 }
@@ -182,6 +184,7 @@ static struct field *patch(struct life *life, const cJSON *ops)
     struct field *spare = life->spare;
     struct field_span changed;
     struct field *field = field_patch(life->newest, spare, life->scene, ops, &changed);
+
     if (field && field == spare) {
         assert_within(field, before, &changed);
     } else if (field && field != life->newest) {
@@ -221,6 +224,7 @@ static void assert_patched(const struct life *life, const struct field *patched,
                            const struct field *fresh, const cJSON *ops)
 {
     char *text = json_print(ops, false);
+
     last_edit = text;
     assert_same_field(life->random, patched, fresh);
     last_edit = "";
@@ -238,6 +242,7 @@ static struct field *take_back(struct life *life, const cJSON *inverse)
 static void start_anew(struct life *life)
 {
     struct field_span changed;
+
     field_end_patches(life->newest);
     assert_null(field_patch(life->newest, life->spare, life->scene, NULL, &changed));
     struct field *fresh = compile(life, life->newest);
@@ -249,6 +254,7 @@ static void start_anew(struct life *life)
 static void edit(struct life *life, cJSON *ops, bool numeric)
 {
     cJSON *inverse = NULL;
+
     if (edit_apply(life->scene, ops, NULL, &inverse, NULL)) {
         struct field *fresh = compile(life, life->newest), *patched = patch(life, ops);
         if (patched) {
@@ -272,6 +278,7 @@ static void edit(struct life *life, cJSON *ops, bool numeric)
 static struct life begin(struct random *random, struct scene *scene)
 {
     struct life life = {.random = random, .scene = scene};
+
     life.newest = compile(&life, NULL);
     assert_non_null(life.newest);
     return life;
@@ -308,6 +315,7 @@ static struct scene *long_union(struct random *random, int count)
     char *text = NULL;
     size_t length = 0;
     FILE *out = open_memstream(&text, &length);
+
     assert_non_null(out);
     fputs("{'format':'fieldcast/1','materials':{'m0':{'shader':'phong'},"
           "'m1':{'shader':'standard','properties':{'transmission':0.5}},"
@@ -333,6 +341,7 @@ static void every_type_is_patched(void **state)
     (void)state;
     struct random random = {61};
     struct random_limits limits = {.depth = 1};
+
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
         for (int k = 0; k < 8; k++) {
@@ -353,6 +362,7 @@ static void the_examples_are_patched(void **state)
 {
     (void)state;
     struct random random = {62};
+
     for (size_t i = 0; i < examples_count; i++) {
         struct error err = {0};
         struct scene *scene =
@@ -384,6 +394,7 @@ static void long_unions_are_patched(void **state)
 {
     (void)state;
     struct random random = {64};
+
     for (int i = 0; i < 40; i++) {
         struct life life = begin(&random, long_union(&random, 60));
         if (i % 2) {
@@ -423,6 +434,7 @@ static void patching_two_fields_allocates_nothing(void **state)
     struct random random = {65};
     struct life life = begin(&random, long_union(&random, 200));
     size_t fields = 0, free_of_any = 0;
+
     for (int n = 0; n < 200; n++) {
         cJSON *ops = numeric_edit(&random, life.scene, false);
         const bool fits = !is_of_environment(ops);
@@ -455,6 +467,7 @@ static void any_edit_is_patched_or_refused(void **state)
     (void)state;
     struct random random = {63};
     size_t patched = 0, edits = 0;
+
     for (int i = 0; i < 60; i++) {
         struct life life = begin(&random, drawable_document(&random));
         for (int n = 0; n < 40; n++) {
@@ -480,5 +493,6 @@ int main(void)
         cmocka_unit_test(patching_two_fields_allocates_nothing),
         cmocka_unit_test(any_edit_is_patched_or_refused),
     };
+
     return cmocka_run_group_tests_name("patched fields", tests, NULL, NULL);
 }

@@ -25,6 +25,7 @@ static char *write_document(void)
     char *text = NULL;
     size_t length = 0;
     FILE *out = open_memstream(&text, &length);
+
     assert_non_null(out);
     fputs("{'format':'fieldcast/1','camera':{'position':[0,1,9],'target':[0,0,0]},"
           "'materials':{'red':{'shader':'phong'}},'environment':{'floor':true},"
@@ -49,6 +50,7 @@ static cJSON *random_operation(struct random *random)
     const size_t what = random_below(random, 8);
     char at[80];
     double value = random_between(random, 0.1, 0.6);
+
     snprintf(at, sizeof at, "/nodes/ball-%d/params/radius", (int)random_below(random, SHAPES));
     if (what < 3) {
         snprintf(at, sizeof at, "%s", others[what]);
@@ -65,6 +67,7 @@ static void edit(struct random *random, struct resident *resident)
 {
     struct error err = {0};
     cJSON *ops = cJSON_CreateArray();
+
     cJSON_AddItemToArray(ops, random_operation(random));
     if (!resident_edit(resident, ops, resident_revision(resident) + 1, &err)) {
         fail_msg("%s: %s", err.place, err.message);
@@ -76,6 +79,7 @@ static void edit(struct random *random, struct resident *resident)
 static struct job_desc one_sample(void)
 {
     struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
+
     desc.samples = 1;
     return desc;
 }
@@ -85,6 +89,7 @@ static struct image draw(struct resident *resident)
     const struct job_desc desc = one_sample();
     struct error err = {0};
     struct image image;
+
     if (!renderer_render(resident, &desc, &image, &err)) {
         fail_msg("%s: %s", err.place, err.message);
     }
@@ -95,6 +100,7 @@ static struct image draw_anew(const struct resident *resident)
 {
     struct resident *fresh = resident_create(renderer, scene_copy(resident_scene(resident)), 1);
     struct image image = draw(fresh);
+
     resident_destroy(fresh);
     return image;
 }
@@ -111,6 +117,7 @@ struct begun {
 static bool step(struct begun *begun)
 {
     const enum job_state state = job_step(begun->job);
+
     assert_true(state != JOB_FAILED);
     if (state == JOB_ROWS) {
         struct image rows = job_take_rows(begun->job, AOV_COLOR);
@@ -126,6 +133,7 @@ static bool step(struct begun *begun)
 static void begin(struct begun *begun, struct resident *resident, bool going)
 {
     const struct job_desc desc = one_sample();
+
     *begun = (struct begun){.want = draw_anew(resident), .job = job_create(resident, &desc, NULL)};
     assert_non_null(begun->job);
     assert_true(!going || step(begun));
@@ -155,6 +163,7 @@ static void edits_are_drawn(void **state)
     struct image first = draw(resident);
     const struct field *base = resident->newest->field;
     const uint64_t compiled = renderer_counters(renderer).compilations;
+
     for (int i = 0; i < EDITS; i++) {
         struct begun *one = &begun[i % UNDER_WAY];
         end(one);
@@ -189,6 +198,7 @@ static void edits_allocate_no_fields(void **state)
     char *text = write_document();
     struct resident *resident = resident_create(renderer, drawing_parse(text), 1);
     struct image first = draw(resident);
+
     for (int i = 0; i < EDITS; i++) {
         edit(&random, resident);
         size_t found = 0;
@@ -209,6 +219,7 @@ static int open_renderer(enum render_stage stage)
     const struct renderer_params params = {
         .device = {.index = -1, .cache_dir = getenv("FIELDCAST_CACHE")}, .stage = stage};
     struct error err = {0};
+
     renderer = renderer_create(&params, &err);
     return renderer ? 0 : -1;
 }
@@ -240,6 +251,7 @@ int main(void)
     };
     int failed = cmocka_run_group_tests_name("patched pictures by the device", tests, with_device,
                                              close_renderer);
+
     return failed + cmocka_run_group_tests_name("patched pictures by the engine", tests,
                                                 with_engine, close_renderer);
 }

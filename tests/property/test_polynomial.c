@@ -29,6 +29,7 @@ static struct field *field_of(const char *text, const char *more)
 {
     static char json[TEXT + 1024];
     struct error err = {0};
+
     snprintf(json, sizeof json,
              "{'format':'fieldcast/1','root':{'type':'implicit','params':{"
              "'equation':'%s'%s}}}",
@@ -46,6 +47,7 @@ static struct equation *read(const char *text)
 {
     struct equation_errors errors;
     struct equation *equation = equation_read(text, equation_letters, &errors);
+
     assert_non_null(equation);
     return equation;
 }
@@ -56,6 +58,7 @@ static void write_dense(struct random *random, int degree, int every, char text[
 {
     size_t used = 0;
     int term = 0;
+
     for (int i = 0; i <= degree; i++) {
         for (int j = 0; j <= degree - i; j++) {
             for (int k = 0; k <= degree - i - j; k++) {
@@ -113,6 +116,7 @@ static void the_degree_is_known(void **state)
 static double value_of(int degree, const double *c, const double p[3])
 {
     double sum = 0;
+
     for (int i = 0; i <= degree; i++) {
         for (int j = 0; j <= degree - i; j++) {
             for (int k = 0; k <= degree - i - j; k++) {
@@ -133,6 +137,7 @@ static void coefficients_make_the_equation(void **state)
     };
     struct random random = {.state = 3};
     (void)state;
+
     for (size_t t = 0; t < sizeof texts / sizeof texts[0]; t++) {
         struct equation *equation = read(texts[t]);
         const double letters[] = {0.7, 1.2, -0.4, 2}, extent = 1.7;
@@ -163,6 +168,7 @@ static bool holds(struct random *random, const struct equation *equation, const 
 {
     const double f = equation_value(equation, p, letter_values), d = field_distance(field, p);
     bool same = fabs(f) < 1e-4 || (d < 0) == (f < 0);
+
     for (int i = 0; i < SAMPLES; i++) {
         double along[3], q[3];
         random_direction(random, along);
@@ -217,6 +223,7 @@ static void the_engine_agrees(void **state)
     static char text[TEXT];
     struct random random = {.state = 21};
     (void)state;
+
     for (int f = 0; f < 3; f++) {
         float points[POINTS][3], got[POINTS];
         int apart = 0;
@@ -296,5 +303,6 @@ int main(void)
         cmocka_unit_test(the_program_depends_on_the_degree),
         cmocka_unit_test(operations_are_bounded_without_coefficients),
     };
+
     return cmocka_run_group_tests_name("polynomials", tests, NULL, NULL);
 }

@@ -32,6 +32,7 @@ struct operation {
 static size_t list_operations(struct operation *out)
 {
     size_t count = 0;
+
     for (size_t t = 0; t < node_type_count(); t++) {
         const struct node_type *type = node_type_at(t);
         const struct param *param = type->record.params;
@@ -60,6 +61,7 @@ static struct scene *scene_of(struct random *random, const struct operation *ope
     char *text;
     size_t length;
     FILE *out = open_memstream(&text, &length);
+
     assert_non_null(out);
     fprintf(out,
             "{'format':'fieldcast/1','materials':{'m0':{'shader':'phong'},"
@@ -107,6 +109,7 @@ static void compare(const struct field *field, const struct scene *scene, struct
                     const float (*points)[3], float half)
 {
     static float whole[POINTS], pruned[POINTS];
+
     for (size_t i = 0; engine_lanes(i) > 0; i++) {
         struct engine_program *program =
             engine_program_create((struct field *)field, engine_lanes(i), 1);
@@ -133,6 +136,7 @@ static void look_at(struct random *random, struct operation *operation,
     struct error err = {0};
     struct scene *scene = scene_of(random, operation, type);
     struct field *field = field_compile(scene, &err);
+
     if (!field) {
         fail_msg("%s: %s", err.place, err.message);
     }
@@ -151,6 +155,7 @@ static bool may_prune(const struct operation *operation)
     struct random random = {.state = 1};
     struct scene *scene = scene_of(&random, operation, NULL);
     double numbers[SDF_NUMBERS_MAX];
+
     sdf_numbers(scene->root->params.type->params, scene->root->params.values, numbers);
     scene_destroy(scene);
     return sdf->reach && isfinite(sdf->reach(numbers));
@@ -163,6 +168,7 @@ static void every_operation_keeps_its_bits(void **state)
     const size_t count = list_operations(operations);
     size_t pruning = 0;
     (void)state;
+
     for (size_t i = 0; i < count; i++) {
         struct operation *operation = &operations[i];
         for (int n = 0; n < OPERATION_SCENES; n++) {
@@ -186,6 +192,7 @@ static void every_type_keeps_its_bits(void **state)
     const size_t count = list_operations(operations);
     size_t next = 0, ran = 0, whole = 0;
     (void)state;
+
     for (size_t t = 0; t < node_type_count(); t++) {
         const struct node_type *type = node_type_at(t);
         const int scenes = type->kind == KIND_EQUATION ? EQUATION_SCENES : TYPE_SCENES;
@@ -204,5 +211,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_operation_keeps_its_bits),
                                        cmocka_unit_test(every_type_keeps_its_bits)};
+
     return cmocka_run_group_tests_name("pruning", tests, NULL, NULL);
 }

@@ -17,6 +17,7 @@
 static struct modified around_axis(int count, const char *child)
 {
     char params[64];
+
     snprintf(params, sizeof params, "{'count':%d,'radius':0}", count);
     struct modified modified = modified_create("repeat_polar", params, child);
     modified.n[0] = count;
@@ -52,6 +53,7 @@ static void copies_around_an_axis_are_copies(void **state)
     (void)state;
     struct random random = {45};
     int few = 0;
+
     for (int round = 0; round < 300; round++) {
         struct modified modified = modified_random(&random, node_type_find("repeat_polar"), true);
         few += modified.whole->loop_trips < modified.n[0];
@@ -67,6 +69,7 @@ static void boxes_beside_the_axis_are_copies(void **state)
     (void)state;
     struct random random = {50};
     struct modified modified = around_axis(5, BOX(0.4, 0.3, 2, AT(0.3, 0, 1.02)));
+
     assert_int_equal(modified.whole->loop_trips, 3);
     assert_is_copies(&random, &modified, 3000);
     modified_finish(&modified);
@@ -79,6 +82,7 @@ static void very_many_copies_are_a_bound(void **state)
     static const char *const children[] = {BOX(3, 0.2, 0.01, AT(0.5, 0, 0)),
                                            BOX(0.5, 1, 4, AT(0.75, 0, 0))};
     struct random random = {46};
+
     for (int i = 0; i < 2; i++) {
         struct modified modified = around_axis(1000, children[i]);
         assert_in_range(modified.whole->loop_trips, SDF_REPEAT_CELLS_MAX - 1, SDF_REPEAT_CELLS_MAX);
@@ -101,5 +105,6 @@ int main(void)
         cmocka_unit_test(boxes_beside_the_axis_are_copies),
         cmocka_unit_test(very_many_copies_are_a_bound),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

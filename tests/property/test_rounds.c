@@ -66,6 +66,7 @@ static void check_by(enum render_stage stage, const char *path, int tile_side,
                      enum quality_level level, int samples, int count)
 {
     struct renderer *renderer = drawing_renderer(tile_side);
+
     renderer_use_stage(renderer, stage);
     struct resident *resident = drawing_resident(renderer, path);
     struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
@@ -164,5 +165,6 @@ int main(void)
         cmocka_unit_test(few_samples_are_one_round),
         cmocka_unit_test(other_pictures_may_come_between),
     };
+
     return cmocka_run_group_tests_name("rounds", tests, NULL, NULL);
 }

@@ -73,6 +73,7 @@ static struct image draw(cJSON *scene)
 {
     char *text = cJSON_PrintUnformatted(scene);
     struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
+
     desc.as_floats = true;
     struct resident *resident = resident_create(renderer, drawing_parse(text), 1);
     struct image image = drawing_of(resident, &desc, AOV_COLOR);
@@ -259,6 +260,7 @@ static void every_parameter_of_every_shader(void **state)
 static void no_two_rows_look_alike(void **state)
 {
     static const struct record_type *const tables[] = {light_types, volume_types, shader_types};
+
     enum { MOST = 16 };
 
     (void)state;
@@ -401,5 +403,6 @@ int main(void)
         cmocka_unit_test(steps_are_shown_by_their_scale),
         cmocka_unit_test(shadows_are_those_of_lights_that_throw_some),
     };
+
     return cmocka_run_group_tests_name("rows", tests, start, end);
 }

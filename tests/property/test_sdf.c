@@ -37,6 +37,7 @@ static void both_tables_have_the_same_rows(void **state)
 {
     (void)state;
     size_t with = 0; /* without instances, code and equations: no functions of ours */
+
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
         const struct sdf *sdf = sdf_find(type);
@@ -203,6 +204,7 @@ static void known_distances(void **state)
 static double steepness(struct random *random, const struct field *field)
 {
     double p[3], q[3], direction[3], gradient[3], worst = 0;
+
     random_point(random, SIZE, p);
     double d = field_distance(field, p);
     random_direction(random, direction);
@@ -222,6 +224,7 @@ static void no_field_is_steeper_than_the_distance(void **state)
 {
     (void)state;
     struct random random = {13};
+
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
         /* Copies of what has no end cannot all be looked at. */
@@ -249,6 +252,7 @@ static void no_nested_field_is_steeper(void **state)
     (void)state;
     struct random random = {14};
     const struct random_limits limits = {.depth = 3};
+
     for (int round = 0; round < 400;) {
         struct scene *scene =
             random_scene(&random, random_type(&random, KIND_COMBINE, &limits), &limits);
@@ -339,5 +343,6 @@ int main(void)
         cmocka_unit_test(boxes_hold_what_they_bound),
         cmocka_unit_test(boxes_of_crossings_hold_when_turned),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

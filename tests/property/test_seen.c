@@ -85,6 +85,7 @@ static void hide(cJSON *node)
 static cJSON *read_golden(const struct node_type *type, bool whole)
 {
     char path[200];
+
     snprintf(path, sizeof path, "tests/golden/nodes/%s/scene.json", type->record.name);
     char *text = text_file_read(path, NULL);
     cJSON *document = cJSON_Parse(text), *child;
@@ -104,6 +105,7 @@ static cJSON *read_golden(const struct node_type *type, bool whole)
 static cJSON *read_composition(const struct composition *composition)
 {
     char *text;
+
     assert_true(asprintf(&text,
                          "{'format':'fieldcast/1',%s'root':{'type':'group',"
                          "'children':[{'type':'group','children':[%s]}]}}",
@@ -267,6 +269,7 @@ static struct oracle *ask_oracle(const struct seen_case *it, const struct view *
                                        .degrees = creased ? CREASED_DEGREES : 5,
                                        .inner_only = true,
                                        .is_near = creased ? is_near_creases : is_near});
+
     scale_now = view->scale;
     scene_destroy(scene);
     return oracle;

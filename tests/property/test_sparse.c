@@ -157,5 +157,6 @@ int main(void)
         cmocka_unit_test(large_fields_have_all_rays),
         cmocka_unit_test(values_and_more_samples_have_all_rays),
     };
+
     return cmocka_run_group_tests_name("sparse", tests, start, stop);
 }

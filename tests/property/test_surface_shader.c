@@ -60,6 +60,7 @@ static struct image draw(const char *material, const char *code)
     struct resident *resident = resident_create(renderer, scene_of(material, code), 1);
     struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
     struct image image = drawing_of(resident, &desc, AOV_COLOR);
+
     resident_destroy(resident);
     return image;
 }
@@ -117,6 +118,7 @@ static void reflectivity_mirrors(void **state)
     const uint64_t none = renderer_counters(renderer).rays - before;
     struct image mirror = draw(MINE, SURFACE("s.reflectivity = 1.0; s.roughness = 0.0;"));
     const uint64_t rays = renderer_counters(renderer).rays - before - none;
+
     assert_true(none == 0 && rays > 400);
     assert_false(drawing_is_same(&matt, &mirror));
     image_finish(&matt);
@@ -183,6 +185,7 @@ static void what_is_not_clear_throws_a_shadow(void **state)
     struct image wall = draw(MINE, SURFACE("s.transmission = 0.0; s.roughness = 0.0;"));
     struct image matt = draw(MINE, SURFACE("s.roughness = 0.0;"));
     int differ = 0, lit = 0;
+
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         for (int c = 0; c < 3; c++) {
             const int a = ((const uint8_t *)wall.pixels)[4 * i + c];
@@ -205,5 +208,6 @@ int main(void)
         cmocka_unit_test(pictures_and_c_agree),
         cmocka_unit_test(what_is_not_clear_throws_a_shadow),
     };
+
     return cmocka_run_group_tests_name("surfaces by users' shaders", tests, start, end);
 }

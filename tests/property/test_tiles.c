@@ -152,6 +152,7 @@ enum { CORNERS = sizeof corners / sizeof corners[0] };
 static long peak_mib(void)
 {
     long kib = 0;
+
 #ifndef __SANITIZE_ADDRESS__
     FILE *file = fopen("/proc/self/status", "r");
     char line[200];
@@ -248,5 +249,6 @@ int main(void)
         cmocka_unit_test(tiles_of_shaders_do_not_show),
         cmocka_unit_test(regions_do_not_show),
     };
+
     return cmocka_run_group_tests_name("tiles", tests, NULL, NULL);
 }

@@ -306,6 +306,7 @@ static void a_solid_cut_is_seen_from_inside(void **state)
 static void what_glass_cuts_out_of_a_solid_is_solid(void **state)
 {
     struct image image = draw_cut("red", "clear", TOP);
+
     /* The face on top has the glass' own colour, 0.8, and all of the light. */
     const double green = value(&image, WIDTH / 2, 18, 1), want = 0.8 * (3 / M_PI + 0.5);
 
@@ -346,5 +347,6 @@ int main(void)
         cmocka_unit_test(what_glass_cuts_out_of_a_solid_is_solid),
         cmocka_unit_test(a_solid_cut_throws_a_shadow),
     };
+
     return cmocka_run_group_tests_name("transmission", tests, start, end);
 }

@@ -47,6 +47,7 @@ struct setting {
 static struct image draw(const struct setting *s)
 {
     char text[4400];
+
     snprintf(text, sizeof text,
              "{'format':'fieldcast/1','camera':{%s},'volumes':[%s],'lights':[%s],"
              "'render':{'antialiasing':'none'%s},"
@@ -81,6 +82,7 @@ static void pixel_ray(int x, int y, double out[3])
     const double d[3] = {(2 * (x + 0.5) / WIDTH - 1) * tall * WIDTH / HEIGHT,
                          (1 - 2 * (y + 0.5) / HEIGHT) * tall, -1};
     const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+
     for (int i = 0; i < 3; i++) {
         out[i] = d[i] / length;
     }
@@ -90,6 +92,7 @@ static void pixel_ray(int x, int y, double out[3])
 static double way_inside(const double d[3], const double centre[3], const double sizes[3])
 {
     double enter = 0, leave = 1e9;
+
     for (int i = 0; i < 3; i++) {
         const double from = (i == 2 ? 5 : 0) - centre[i];
         const double a = (-sizes[i] / 2 - from) / d[i], b = (sizes[i] / 2 - from) / d[i];
@@ -110,6 +113,7 @@ static double way_inside(const double d[3], const double centre[3], const double
 static double way_in_egg(const double d[3], const double centre[3], const double radii[3])
 {
     double a = 0, b = 0, c = -1;
+
     for (int i = 0; i < 3; i++) {
         const double way = d[i] / radii[i], from = ((i == 2 ? 5 : 0) - centre[i]) / radii[i];
         a += way * way;
@@ -134,6 +138,7 @@ static void what_is_let_through(void **state)
     (void)state;
     static const double middle[3] = {0}, ball[3] = {0.3, 0.2, -1}, other[3] = {0.4, 0, 0.8};
     static const double box_size[3] = {2, 2, 2}, radius[3] = {1}, tall[3] = {1, 3, 1};
+
     static const struct {
         const char *volumes;
         const double *centres[2], *sizes[2];
@@ -169,6 +174,7 @@ static void an_egg_lets_through_what_a_stretched_ball_does(void **state)
     int inside = 0;
     struct image image =
         draw(&(struct setting){.camera = perspective, .volumes = AN_EGG, .around = 1});
+
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
             double d[3];
@@ -190,6 +196,7 @@ static void density_grows_from_the_rim_of_an_egg(void **state)
                                          "'type':'ellipsoid','radii':[8,8,8]",
                                          "'type':'ellipsoid','radii':[30,50,8]"};
     double found[3];
+
     for (int i = 0; i < 3; i++) {
         char volume[300];
         snprintf(volume, sizeof volume,
@@ -213,6 +220,7 @@ static void emission_and_absorption(void **state)
     struct image image = draw(
         &(struct setting){.camera = perspective,
                           .volumes = "{'type':'box'," BLACK "'density':0.7,'emission':[1.5,0,0]}"});
+
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
             double d[3];
@@ -228,6 +236,7 @@ static void emission_and_absorption(void **state)
 static void assert_all(const struct setting *s, double expected, double part, const char *what)
 {
     struct image image = draw(s);
+
     for (int y = 2; y < HEIGHT - 2; y++) {
         for (int x = 2; x < WIDTH - 2; x++) {
             assert_near(red(&image, x, y), expected, part, what, x, y);
@@ -250,6 +259,7 @@ static void light_scattered_once(void **state)
 {
     (void)state;
     const double depth = 0.6 * 2, back = (1 - exp(-2 * depth)) / 2, forth = depth * exp(-depth);
+
     assert_all(&(struct setting){.camera = along_z,
                                  .volumes = SLAB(",'color':[0.5,0,0]"),
                                  .lights = LAMP("[0,0,-1]")},
@@ -277,6 +287,7 @@ static void what_is_behind_a_wall_is_not_there(void **state)
         .camera = perspective, .volumes = TWO_BOXES, .children = wall, .lights = LAMP("[0,0,-1]")});
     struct image without = draw(&(struct setting){
         .camera = perspective, .volumes = "", .children = wall, .lights = LAMP("[0,0,-1]")});
+
     assert_true(red(&with, 9, 9) > 0.1);
     assert_true(drawing_is_same(&with, &without));
     image_finish(&with);
@@ -297,6 +308,7 @@ static void order_does_not_matter(void **state)
         "{'id':'a','type':'sphere','density':3,'position':[-1,0,1],'seed':4}",
         "{'id':'b','type':'box','density':2,'position':[0.8,0,-1],'size':[1,1,1]}"};
     struct image images[2];
+
     for (int i = 0; i < 2; i++) {
         char text[400];
         snprintf(text, sizeof text, "%s,%s", volumes[i], volumes[1 - i]);
@@ -325,6 +337,7 @@ static void the_scene_throws_shadows(void **state)
                                   "'direction':[-1,0,0],'size':40}"};
     const double lit = 50 * phase(0, 0) * (1 - exp(-0.02 * 2));
     struct image image = draw(&s);
+
     assert_near(red(&image, WIDTH / 2, HEIGHT / 4), lit, 0.05, "light", WIDTH / 2, HEIGHT / 4);
     assert_near(red(&image, WIDTH / 2, 3 * HEIGHT / 4), 0, 0, "shadow", WIDTH / 2, 3 * HEIGHT / 4);
     image_finish(&image);
@@ -350,6 +363,7 @@ static void smoke_close_to_a_floor_dims_as_elsewhere(void **state)
         .children = "{'type':'plane','params':{'offset':-0.8}}",
         .lights = "{'type':'directional','intensity':30,'shadow':'hard',"
                   "'direction':[-0.9797958971,-0.2,0]}"});
+
     for (int y = 0; y < HEIGHT - 1; y++) { /* the last row may be the floor */
         const double height = -0.75 + 0.1 * (0.5 - (y + 0.5) / HEIGHT);
         const double way = fmin((0.8 - height) / up, 12 / across);
@@ -368,6 +382,7 @@ static void smoke_throws_shadows(void **state)
     struct setting s = {
         .camera = along_y, .volumes = "", .children = "{'type':'plane'}", .lights = lamp};
     struct image clear = draw(&s);
+
     s.volumes = "{'type':'box'," BLACK "'density':0.5,'size':[1,2,1],"
                 "'position':[0.5,7,0]}";
     struct image dim = draw(&s);
@@ -391,6 +406,7 @@ static double mean_of(const struct setting *s)
 {
     struct image image = draw(s);
     double sum = 0;
+
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         sum += red(&image, i % WIDTH, i / WIDTH);
     }
@@ -408,6 +424,7 @@ static void density_by_field(void **state)
                           .volumes = "{'type':'box','size':[9,3,9],'source':'field','reach':0.2,"
                                      "'falloff':0,'density':4,'color':[0,0,0],'emission':[1,1,1]}",
                           .children = "{'type':'plane'}"});
+
     assert_near(mean, 1 - exp(-depth), 0.01, "field", 0, 0);
 }
 
@@ -415,6 +432,7 @@ static void noise_fills_its_part(void **state)
 {
     (void)state;
     static const double parts[] = {0, 0.2, 0.5, 0.8, 1};
+
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
         char volume[300];
         int filled = 0;
@@ -441,6 +459,7 @@ static void many_volumes_and_lights(void **state)
 {
     (void)state;
     char volumes[1600] = "", lights[1600] = "";
+
     for (int i = 0; i < LIMIT_VOLUMES; i++) {
         const size_t used = strlen(volumes);
         snprintf(volumes + used, sizeof volumes - used,
@@ -472,6 +491,7 @@ static void numbers_compile_nothing(void **state)
                                         "[{'op':'insert','into':'/volumes','before':null,"
                                         "'value':{'type':'box','position':[1,0,0]}}]"};
     struct scene *scene = drawing_parse("{'format':'fieldcast/1','root':{'type':'torus'}}");
+
     renderer_use_stage(renderer, RENDER_COMPUTE);
     struct resident *resident = resident_create(renderer, scene, 1);
     const struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
@@ -540,5 +560,6 @@ int main(void)
         cmocka_unit_test(numbers_compile_nothing),
         cmocka_unit_test(numbers_stay_numbers),
     };
+
     return cmocka_run_group_tests_name("volumes", tests, set_up, tear_down);
 }

@@ -153,6 +153,7 @@ static void write_variable(struct maker *maker, char letter)
 {
     static const char *const letters[] = {"fg", "ts", "vx", "ij", "u", "b",
                                           "w",  "mo", "nl", "r",  "q"};
+
     for (size_t i = 0; i < sizeof letters / sizeof letters[0]; i++) {
         const char *found = strchr(letters[i], letter);
         if (found) {
@@ -198,6 +199,7 @@ static void write_nested(struct maker *maker, int depth)
     static const char *const heads[] = {
         "if ($f < $g) {", "for (int L# = 0; L# < 4; L#++) {", "{",
         "for (float L# = 0.0; L# < 2.5; L# += 1.0) { if ($f < $g + L#) break;"};
+
     enum { HEADS = sizeof heads / sizeof heads[0] };
     const size_t which = random_below(maker->random, HEADS);
 

@@ -30,6 +30,7 @@ void code_batch_add(struct code_batch *batch, const char *text, enum code_use us
     struct error err = {0};
     const struct code_source source = {use, text, params, batch->ours};
     struct code *code = code_compile(&source, &err);
+
     if (!code) {
         fail_msg("%d:%d: %s\n%s", err.line, err.column, err.message, text);
     }
@@ -60,6 +61,7 @@ static bool agrees(const struct code_gpu_job *job, const double *numbers, const 
                    const float got[4])
 {
     double low[4], high[4];
+
     for (int corner = -1; corner < 8; corner++) {
         double p[3], value[4];
         for (int i = 0; i < 3; i++) {
@@ -85,6 +87,7 @@ static void print_difference(const struct code_batch *batch, size_t job, size_t 
     const double p[3] = {points[point][0], points[point][1], points[point][2]};
     const float *got = answers[job * CODE_GPU_POINTS + point];
     double want[4];
+
     run_in_c(&batch->jobs[job], batch->numbers, p, want);
     fprintf(stderr, /* print_error would cut it */
             "%s\nat (%.9g, %.9g, %.9g): drawn %.9g %.9g %.9g, C %.9g %.9g %.9g\n",
@@ -94,6 +97,7 @@ static void print_difference(const struct code_batch *batch, size_t job, size_t 
 static bool is_wrong(const struct code_batch *batch, size_t job, size_t allowed)
 {
     size_t wrong = 0, last = 0;
+
     for (size_t i = 0; i < CODE_GPU_POINTS; i++) {
         const float *got = answers[job * CODE_GPU_POINTS + i];
         if (!agrees(&batch->jobs[job], batch->numbers, points[i], got)) {
@@ -112,6 +116,7 @@ static bool is_wrong(const struct code_batch *batch, size_t job, size_t allowed)
 static void make_points(void)
 {
     struct random random = {.state = 99};
+
     for (size_t i = 0; i < CODE_GPU_POINTS; i++) {
         for (int j = 0; j < 3; j++) {
             points[i][j] = (float)random_between(&random, -SIZE, SIZE);
@@ -123,6 +128,7 @@ static void make_points(void)
 static bool engine_is_wrong(const struct code_batch *batch, size_t job, size_t allowed)
 {
     static float places[CODE_GPU_POINTS][3], got[CODE_GPU_POINTS];
+
     if (batch->ours || batch->jobs[job].use != CODE_DISTANCE || batch->jobs[job].params->name) {
         return false;
     }
@@ -142,6 +148,7 @@ void code_batch_run(struct code_batch *batch, size_t allowed)
     struct error err = {0};
     float floats[4 * LIMIT_DECLARED];
     size_t wrong = 0;
+
     make_points();
     for (size_t i = 0; i < sizeof floats / sizeof floats[0]; i++) {
         floats[i] = (float)batch->numbers[i];

@@ -13,6 +13,7 @@ struct code_blocks code_blocks_read(const char *path)
     struct code_blocks blocks = {.whole = text_file_read(path, NULL)};
     struct code_block *row = NULL;
     int line = 1;
+
     for (char *at = blocks.whole, *next; *at; at = next, line++) {
         char *end = strchr(at, '\n');
         next = end ? end + 1 : at + strlen(at);

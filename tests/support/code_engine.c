@@ -20,6 +20,7 @@ static struct scene *scene_of(const char *text)
 {
     struct error err = {0};
     cJSON *document = cJSON_CreateObject();
+
     cJSON_AddStringToObject(document, "format", "fieldcast/1");
     cJSON *root = cJSON_AddObjectToObject(document, "root");
     cJSON_AddStringToObject(root, "id", "code");
@@ -37,6 +38,7 @@ static struct scene *scene_of(const char *text)
 void engine_agree(const struct field *field, const float (*points)[3], size_t count, float *out)
 {
     float *again = calloc(count, sizeof *again);
+
     assert_non_null(again);
     for (size_t i = 0; engine_lanes(i) > 0; i++) {
         struct engine_program *program =
@@ -56,6 +58,7 @@ void code_engine_run(const char *text, const float (*points)[3], size_t count, f
     struct error err = {0};
     struct scene *scene = scene_of(text);
     struct field *field = field_compile(scene, &err);
+
     if (!field) {
         fail_msg("%s: %s\n%s", err.place, err.message, text);
     }

@@ -14,6 +14,7 @@ enum { GROUP = 64, NUMBERS = 4 * LIMIT_DECLARED };
 bool code_gpu_init(struct code_gpu *gpu, struct error *err)
 {
     const struct device_params params = {.index = -1};
+
     *gpu = (struct code_gpu){0};
     if (!egl_init(&gpu->egl, &params, err)) {
         return false;
@@ -62,6 +63,7 @@ static void write_arguments(FILE *out, const struct param *params)
 {
     static const char *const names[] = {"", "float", "vec2", "vec3", "vec4"};
     int next = 0;
+
     for (; params->name; params++) {
         int count = param_components(params->type);
         fprintf(out, ", %s(", names[count]);
@@ -77,6 +79,7 @@ static char *write_program(const struct code_gpu_job *jobs, size_t count)
     char *text = NULL, name[32];
     size_t length;
     FILE *out = open_memstream(&text, &length);
+
     if (!out) {
         abort();
     }
@@ -107,6 +110,7 @@ static double weighed(double a, double b, double c)
 void code_gpu_digest(const struct code_surface *s, double out[4])
 {
     const double emission = weighed(s->emission[0], s->emission[1], s->emission[2]) * 0.01;
+
     out[0] = weighed(s->color[0], s->color[1], s->color[2]);
     out[1] = weighed(s->metallic, s->roughness, s->reflectivity);
     out[2] = weighed(s->transmission, s->ior, emission);
@@ -116,6 +120,7 @@ void code_gpu_digest(const struct code_surface *s, double out[4])
 static void set_buffer(const struct code_gpu *gpu, GLuint binding, const void *data, size_t bytes)
 {
     const struct gl *gl = &gpu->gl;
+
     gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, gpu->buffers[binding]);
     gl->BufferData(GL_SHADER_STORAGE_BUFFER, (GLsizeiptr)bytes, data, GL_STREAM_DRAW);
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, gpu->buffers[binding]);
@@ -131,6 +136,7 @@ bool code_gpu_run(struct code_gpu *gpu, const struct code_gpu_job *jobs, size_t 
     const struct glsl_file own[] = {{"jobs.glsl", text}, {NULL, NULL}};
     struct pass pass;
     const bool ok = pass_init(&pass, gl, &(struct pass_source){true, NULL, "jobs.glsl", own}, err);
+
     free(text);
     if (!ok) {
         return false;

@@ -74,6 +74,7 @@ static int compare(const void *a, const void *b)
 double compile_cost_plain(struct renderer *renderer)
 {
     static const char *const shapes[] = {"sphere", "torus", "box"};
+
     enum { SHAPES = sizeof shapes / sizeof shapes[0] };
     double ms[SHAPES];
     char text[128];

@@ -18,6 +18,7 @@ cJSON *edits_parse(const char *text)
 {
     struct error err = {0};
     cJSON *json = json_text_parse(text, &err);
+
     assert_non_null(json);
     return json;
 }
@@ -25,6 +26,7 @@ cJSON *edits_parse(const char *text)
 void edits_assert_prints(cJSON *json, const char *expected)
 {
     char *text = json_print(json, false), *wanted = json_text(expected);
+
     assert_string_equal(text, wanted);
     free(text);
     free(wanted);
@@ -37,6 +39,7 @@ void edits_assert(struct scene *scene, const char *ops_text, const char *applied
     struct error err = {0};
     cJSON *ops = edits_parse(ops_text), *applied, *inverse;
     char *before = scene_print(scene, false), *again;
+
     if (!edit_apply(scene, ops, &applied, &inverse, &err)) {
         fail_msg("%s: %s: %s", ops_text, err.place, err.message);
     }
@@ -68,6 +71,7 @@ void edits_assert_fails(struct scene *scene, const char *text, enum error_kind k
     struct error err = {0};
     cJSON *ops = edits_parse(text);
     char *before = scene_print(scene, false), *after;
+
     assert_false(edit_apply(scene, ops, NULL, NULL, &err));
     assert_int_equal(err.kind, kind);
     assert_string_equal(err.place, place);
@@ -83,6 +87,7 @@ void edits_apply(struct scene *scene, const char *text)
 {
     struct error err = {0};
     cJSON *ops = edits_parse(text);
+
     if (!edit_apply(scene, ops, NULL, NULL, &err)) {
         fail_msg("%s: %s: %s", text, err.place, err.message);
     }

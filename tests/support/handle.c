@@ -46,6 +46,7 @@ static double fail(struct reader *reader)
 static double named(struct reader *reader, const char *name)
 {
     const int index = record_type_find(reader->record->type, name);
+
     if (index < 0) {
         return fail(reader);
     }
@@ -67,6 +68,7 @@ static double read_name(struct reader *reader)
 {
     char name[32];
     size_t length = 0;
+
     while (isalnum((unsigned char)reader->at[length]) || reader->at[length] == '_') {
         length++;
     }
@@ -107,6 +109,7 @@ static double read_factor(struct reader *reader)
 static double read_product(struct reader *reader)
 {
     double value = read_factor(reader);
+
     while (!reader->failed) {
         if (take(reader, '*')) {
             value *= read_factor(reader);
@@ -122,6 +125,7 @@ static double read_product(struct reader *reader)
 static double read_sum(struct reader *reader)
 {
     double value = read_product(reader);
+
     while (!reader->failed) {
         if (take(reader, '+')) {
             value += read_product(reader);
@@ -138,6 +142,7 @@ int handle_points(const char *text, const struct record *record, double out[HAND
 {
     struct reader reader = {.at = text, .record = record};
     int count = 0;
+
     do {
         for (int i = 0; i < 3; i++) {
             out[count][i] = read_sum(&reader);

@@ -37,6 +37,7 @@ static bool in_box(const double p[3], const double *n)
 static bool in_plane(const double p[3], const double *n)
 {
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+
     return (p[0] * n[0] + p[1] * n[1] + p[2] * n[2]) / length < n[3];
 }
 
@@ -45,6 +46,7 @@ static bool in_plane(const double p[3], const double *n)
 static bool in_prism(const double p[3], const double *n, int sides, double first)
 {
     bool inside = fabs(p[2]) < n[1] / 2;
+
     for (int i = 0; i < sides; i++) {
         double angle = first + 2 * PI * i / sides;
         inside = inside && p[0] * cos(angle) + p[1] * sin(angle) < n[0];
@@ -65,12 +67,14 @@ static bool in_tri_prism(const double p[3], const double *n)
 static bool in_pyramid(const double p[3], const double *n)
 {
     double half = n[0] / 2 * (1 - p[1] / n[1]);
+
     return p[1] > 0 && p[1] < n[1] && fabs(p[0]) < half && fabs(p[2]) < half;
 }
 
 static bool near_point(const double p[3], const double *a, double radius)
 {
     double w[3];
+
     minus(p, a, w);
     return dot(w, w) < radius * radius;
 }
@@ -79,6 +83,7 @@ static bool near_point(const double p[3], const double *a, double radius)
 static bool beside_segment(const double p[3], const double *a, const double *b, double radius)
 {
     double w[3], e[3], across[3];
+
     minus(p, a, w);
     minus(b, a, e);
     cross(w, e, across);
@@ -91,6 +96,7 @@ static bool in_rhombus(const double p[3], const double *n)
     double q[3] = {fabs(p[0]), 0, fabs(p[2])}, a[3] = {n[0] / 2, 0, 0}, b[3] = {0, 0, n[1] / 2};
     bool plan = q[0] / a[0] + q[2] / b[2] < 1 || near_point(q, a, n[3]) || near_point(q, b, n[3]) ||
                 beside_segment(q, a, b, n[3]);
+
     return plan && fabs(p[1]) < n[2] / 2;
 }
 
@@ -98,6 +104,7 @@ static bool in_rhombus(const double p[3], const double *n)
 static bool beside_face(const double p[3], const double *const corners[3], double thickness)
 {
     double u[3], v[3], normal[3], w[3], edge[3], outward[3];
+
     minus(corners[1], corners[0], u);
     minus(corners[2], corners[0], v);
     cross(u, v, normal);
@@ -117,6 +124,7 @@ static bool near_triangle(const double p[3], const double *a, const double *b, c
 {
     const double *corners[3] = {a, b, c};
     bool inside = beside_face(p, corners, thickness);
+
     for (int i = 0; i < 3; i++) {
         inside = inside || near_point(p, corners[i], thickness) ||
                  beside_segment(p, corners[i], corners[(i + 1) % 3], thickness);
@@ -147,6 +155,7 @@ struct hull {
 static void add_corners(struct hull *hull, double x, double y, double z)
 {
     double at[3] = {x, y, z}, length = sqrt(x * x + y * y + z * z);
+
     for (int turn = 0; turn < (x == y && y == z ? 1 : 3); turn++) {
         for (int signs = 0; signs < 8; signs++) {
             double *corner = hull->corners[hull->corner_count];
@@ -165,6 +174,7 @@ static void add_corners(struct hull *hull, double x, double y, double z)
 static void add_plane(struct hull *hull, const double *a, const double *b, const double *c)
 {
     double u[3], v[3], normal[3];
+
     minus(b, a, u);
     minus(c, a, v);
     cross(u, v, normal);
@@ -212,6 +222,7 @@ static bool in_tetrahedron(const double p[3], const double *n)
 {
     static struct hull hull;
     static const double signs[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+
     if (hull.corner_count == 0) {
         hull.corner_count = 4;
         for (int i = 0; i < 12; i++) {
@@ -224,6 +235,7 @@ static bool in_tetrahedron(const double p[3], const double *n)
 static bool in_dodecahedron(const double p[3], const double *n)
 {
     static struct hull hull;
+
     if (hull.corner_count == 0) {
         add_corners(&hull, 0, 1 / PHI, PHI);
         add_corners(&hull, 1, 1, 1);
@@ -234,6 +246,7 @@ static bool in_dodecahedron(const double p[3], const double *n)
 static bool in_icosahedron(const double p[3], const double *n)
 {
     static struct hull hull;
+
     if (hull.corner_count == 0) {
         add_corners(&hull, 0, 1, PHI);
     }
@@ -246,6 +259,7 @@ static bool in_gyroid(const double p[3], const double *n)
 {
     double k = 2 * PI / n[0], x = k * p[0], y = k * p[1], z = k * p[2];
     double g = sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x);
+
     return in_box(p, n + 2) && fabs(g) / (sqrt(3) * k) < n[1] / 2;
 }
 
@@ -254,6 +268,7 @@ static bool in_gyroid(const double p[3], const double *n)
 static bool in_menger(const double p[3], const double *n)
 {
     double size[3] = {n[0], n[0], n[0]}, q[3];
+
     for (int i = 0; i < 3; i++) {
         q[i] = p[i] / n[0] + 0.5;
     }
@@ -289,6 +304,7 @@ static double norm4(const double q[4])
 static bool in_julia(const double p[3], const double *n)
 {
     double q[4] = {p[0], p[1], p[2], 0}, next[4], edge = 0.5 + sqrt(0.25 + norm4(n));
+
     for (int i = 0; i < (int)n[4] && norm4(q) < edge; i++) {
         multiply(q, q, next);
         for (int j = 0; j < 4; j++) {
@@ -302,6 +318,7 @@ static bool in_julia(const double p[3], const double *n)
 static bool in_mandelbulb(const double p[3], const double *n)
 {
     double z[3] = {p[0], p[1], p[2]}, edge = pow(2, 1 / (n[0] - 1)), r = sqrt(dot(z, z));
+
     for (int i = 0; i < (int)n[1] && r < edge; i++) {
         double down = n[0] * atan2(hypot(z[0], z[2]), z[1]), around = n[0] * atan2(z[0], z[2]);
         double length = pow(r, n[0]);
@@ -317,6 +334,7 @@ static bool in_mandelbulb(const double p[3], const double *n)
 static double corner_height(double x, double z, uint32_t seed)
 {
     uint32_t h = 0x9e3779b1u * (uint32_t)(int32_t)x + 0x85ebca77u * (uint32_t)(int32_t)z;
+
     h += 0xc2b2ae3du * seed;
     h ^= h >> 16;
     h *= 0x7feb352du;
@@ -335,6 +353,7 @@ static double share(double t)
 static bool in_terrain(const double p[3], const double *n)
 {
     double sum = 0, most = 0, x = p[0], z = p[2], cell = fmax(n[0], n[2]) / 4;
+
     for (int octave = 0; octave < (int)n[3]; octave++) {
         double height = pow(0.5, octave), size = cell * height;
         double u = x / size + 0.37 * (1 / height - 1), v = z / size + 0.61 * (1 / height - 1);

@@ -25,6 +25,7 @@ static bool in_ellipsoid(const double p[3], const double *n)
 static bool in_round_box(const double p[3], const double *n)
 {
     double radius = fmin(n[3], fmin(n[0], fmin(n[1], n[2])) / 2), sum = 0;
+
     for (int i = 0; i < 3; i++) {
         double core = n[i] / 2 - radius;
         sum += pow(p[i] - clamped(p[i], -core, core), 2);
@@ -36,6 +37,7 @@ static bool in_round_box(const double p[3], const double *n)
 static bool in_box_frame(const double p[3], const double *n)
 {
     int near = 0;
+
     for (int i = 0; i < 3; i++) {
         double depth = n[i] / 2 - fabs(p[i]);
         if (depth <= 0) {
@@ -49,6 +51,7 @@ static bool in_box_frame(const double p[3], const double *n)
 static bool in_torus(const double p[3], const double *n)
 {
     double ring = sqrt(p[0] * p[0] + p[2] * p[2]) - n[0];
+
     return ring * ring + p[1] * p[1] < n[1] * n[1];
 }
 
@@ -57,6 +60,7 @@ static bool near_arc(double x, double y, double z, double radius, double angle, 
 {
     double at = clamped(atan2(x, y), -angle, angle);
     double dx = x - radius * sin(at), dy = y - radius * cos(at);
+
     return dx * dx + dy * dy + z * z < reach * reach;
 }
 
@@ -70,6 +74,7 @@ static bool in_link(const double p[3], const double *n)
 {
     double y = fabs(p[1]), half = n[0] / 2, aside = fabs(p[0]) - n[1];
     double straight = y - clamped(y, -half, half);
+
     return near_arc(p[0], y - half, p[2], n[1], acos(-1) / 2, n[2]) ||
            aside * aside + straight * straight + p[2] * p[2] < n[2] * n[2];
 }
@@ -85,6 +90,7 @@ static bool in_round_cylinder(const double p[3], const double *n)
     double rounding = fmin(n[2], fmin(n[0], n[1] / 2)), r = sqrt(p[0] * p[0] + p[2] * p[2]);
     double half = n[1] / 2 - rounding;
     double aside = r - clamped(r, 0, n[0] - rounding), over = p[1] - clamped(p[1], -half, half);
+
     return aside * aside + over * over <= rounding * rounding; /* may be 0 */
 }
 
@@ -94,6 +100,7 @@ static bool in_balls(const double p[3], const double *a, const double *b, double
                      double radius2)
 {
     double low = 0, high = 1;
+
     for (int i = 0; i < 60; i++) {
         double out[2];
         for (int k = 0; k < 2; k++) {
@@ -125,6 +132,7 @@ static bool in_round_cone(const double p[3], const double *n)
 static bool in_cone_part(const double p[3], double radius1, double radius2, double height)
 {
     double t = p[1] / height + 0.5, wall = radius1 + t * (radius2 - radius1);
+
     return t > 0 && t < 1 && p[0] * p[0] + p[2] * p[2] < wall * wall;
 }
 
@@ -152,12 +160,14 @@ static bool in_cut_sphere(const double p[3], const double *n)
 static bool in_cut_hollow_sphere(const double p[3], const double *n)
 {
     double angle = acos(clamped(-n[1] / n[0], -1, 1));
+
     return near_arc(sqrt(p[0] * p[0] + p[2] * p[2]), -p[1], 0, n[0], angle, n[2]);
 }
 
 static bool in_death_star(const double p[3], const double *n)
 {
     double moved[3] = {p[0] - n[2], p[1], p[2]};
+
     return in_sphere(p, n) && !in_sphere(moved, n + 1);
 }
 
@@ -186,6 +196,7 @@ const struct inside_oracle *inside_oracle_find(const char *type)
 {
     static const struct inside_oracle *const tables[] = {inside_oracle_round,
                                                          inside_oracle_flat_sided};
+
     for (int i = 0; i < 2; i++) {
         for (const struct inside_oracle *row = tables[i]; row->type; row++) {
             if (strcmp(row->type, type) == 0) {

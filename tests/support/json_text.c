@@ -17,6 +17,7 @@
 void json_text_quote(char *text)
 {
     bool inside = false; /* of a string between two " */
+
     for (char *at = text; *at; at++) {
         if (*at == '\\' && at[1]) {
             at++;
@@ -31,6 +32,7 @@ void json_text_quote(char *text)
 char *json_text(const char *text)
 {
     char *out = memory_text(text);
+
     json_text_quote(out);
     return out;
 }
@@ -38,6 +40,7 @@ char *json_text(const char *text)
 void json_text_assert_equal(const char *printed, const char *text)
 {
     char *json = json_text(text);
+
     assert_string_equal(printed, json);
     free(json);
 }
@@ -46,6 +49,7 @@ cJSON *json_text_parse(const char *text, struct error *err)
 {
     char *json = json_text(text);
     cJSON *parsed = json_parse(json, strlen(json), err);
+
     free(json);
     return parsed;
 }
@@ -54,6 +58,7 @@ struct scene *json_text_scene(const char *text, struct error *err)
 {
     char *json = json_text(text);
     struct scene *scene = scene_parse(json, strlen(json), err);
+
     free(json);
     return scene;
 }
@@ -62,6 +67,7 @@ struct scene *json_text_valid_scene(const char *text)
 {
     struct error err = {0};
     struct scene *scene = json_text_scene(text, &err);
+
     if (!scene) {
         fail_msg("%s: %s\n%s", err.place, err.message, text);
     }

@@ -18,6 +18,7 @@
 static double at(const struct field *child, double x, double y, double z)
 {
     const double p[3] = {x, y, z};
+
     return field_distance(child, p);
 }
 
@@ -51,12 +52,14 @@ static double elongate_at(const struct field *child, const double p[3], const do
 static double twist_at(const struct field *child, const double p[3], const double *n)
 {
     double c = cos(-n[0] * p[1]), s = sin(-n[0] * p[1]);
+
     return at(child, c * p[0] + s * p[2], p[1], -s * p[0] + c * p[2]);
 }
 
 static double bend_at(const struct field *child, const double p[3], const double *n)
 {
     double c = cos(-n[0] * p[0]), s = sin(-n[0] * p[0]);
+
     return at(child, c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]);
 }
 
@@ -69,6 +72,7 @@ static double offset_at(const struct field *child, const double p[3], const doub
 static double displace_at(const struct field *child, const double p[3], const double *n)
 {
     double waves = sin(n[1] * p[0]) * sin(n[2] * p[1]) * sin(n[3] * p[2]);
+
     return field_distance(child, p) + n[0] * waves;
 }
 
@@ -76,6 +80,7 @@ static double noise_at(const struct field *child, const double p[3], const doubl
 {
     const double q[3] = {n[1] * p[0], n[1] * p[1], n[1] * p[2]};
     double noise = noise_octaves(q, (int)n[2], (uint32_t)n[3]), sum = 0;
+
     for (int i = 0; i < (int)n[2]; i++) {
         sum += pow(2, -i);
     }
@@ -86,6 +91,7 @@ static double extrude_at(const struct field *child, const double p[3], const dou
 {
     double r = fmin(n[1], n[0] / 2), side = at(child, p[0], p[1], 0) + r;
     double cap = fabs(p[2]) - n[0] / 2 + r;
+
     return side > 0 && cap > 0 ? sqrt(side * side + cap * cap) - r : fmax(side, cap) - r;
 }
 
@@ -97,6 +103,7 @@ static double revolve_at(const struct field *child, const double p[3], const dou
 static double polar_at(const struct field *child, const double p[3], const double *n)
 {
     double least = INFINITY;
+
     for (int i = 0; i < (int)n[0]; i++) {
         double c = cos(2 * PI * i / n[0]), s = sin(2 * PI * i / n[0]);
         least = fmin(least, at(child, c * p[0] + s * p[2] - n[1], p[1], c * p[2] - s * p[0]));
@@ -108,6 +115,7 @@ static double repeat_at(const struct field *child, const double p[3], const doub
 {
     int count[3];
     double least = INFINITY;
+
     for (int i = 0; i < 3; i++) {
         count[i] = n[3 + i] > 0 ? (int)n[3 + i] : 1;
     }
@@ -154,6 +162,7 @@ static struct scene *scene_of(const char *root)
 {
     struct error err = {0};
     char *text;
+
     if (asprintf(&text,
                  "{'format':'fieldcast/1','materials':{'m0':{'shader':'phong'},'m1':{"
                  "'shader':'phong'},'m2':{'shader':'phong'}},'root':%s}",
@@ -173,6 +182,7 @@ struct field *modified_field(const char *node)
 {
     struct scene *scene = scene_of(node);
     struct field *field = compile_field(scene);
+
     scene_destroy(scene);
     return field;
 }
@@ -180,6 +190,7 @@ struct field *modified_field(const char *node)
 struct modified modified_create(const char *type, const char *params, const char *child)
 {
     struct modified modified = {.type = node_type_find(type)};
+
     if (asprintf(&modified.text, "{'type':'%s','params':%s,'children':[%s]}", type, params, child) <
         0) {
         abort();
@@ -196,6 +207,7 @@ static char *random_child(struct random *random, const struct random_limits *lim
     size_t length;
     FILE *out = open_memstream(&text, &length);
     enum node_kind kind = flat ? KIND_FLAT : KIND_SHAPE;
+
     if (!out) {
         abort();
     }
@@ -223,6 +235,7 @@ struct modified modified_random(struct random *random, const struct node_type *t
     char *child = random_child(random, &limits, flat, !exact);
     struct scene *scene = random_scene(random, type, &plain);
     cJSON *object = cJSON_CreateObject();
+
     record_print(&scene->root->params, object);
     char *params = json_print(object, false);
     struct modified modified = modified_create(type->record.name, params, child);
@@ -247,6 +260,7 @@ double modified_outside(const struct modified *modified, const double p[3])
 {
     const struct bounds *box = &modified->whole->bounds;
     double d = field_distance(modified->whole, p), square = 0;
+
     for (int i = 0; i < 3; i++) {
         double out = fmax(fmax(box->low[i] - p[i], p[i] - box->high[i]), 0);
         square += out * out;
@@ -284,6 +298,7 @@ static void random_seam(struct random *random, const struct modified *modified, 
 double modified_steepness(struct random *random, const struct modified *modified)
 {
     double p[3], q[3], direction[3], worst = 0;
+
     random_seam(random, modified, p);
     double d = field_distance(modified->whole, p);
     for (int k = 0; k < 4; k++) {

@@ -8,6 +8,7 @@ static const struct node *any_node(struct random *random, const struct scene *sc
 {
     const struct node *found = scene->root;
     size_t seen = 0;
+
     for (size_t tree = 0; tree <= scene->models.count; tree++) {
         const struct node *top =
             tree < scene->models.count ? scene->models.items[tree]->root : scene->root;
@@ -28,6 +29,7 @@ static int any_row(struct random *random, const struct record *record)
 {
     int found = -1;
     size_t seen = 0;
+
     for (int i = 0; record->type->params[i].name; i++) {
         if (is_numeric(record->type->params[i].type) && random_below(random, ++seen) == 0) {
             found = i;
@@ -39,6 +41,7 @@ static int any_row(struct random *random, const struct record *record)
 static void move_number(struct random *random, const struct param *param, cJSON *number)
 {
     double low, high;
+
     param_range(param, &low, &high);
     const double by = fabs(number->valuedouble) * 0.1 + 0.02;
     const double moved = number->valuedouble + random_between(random, -by, by);
@@ -58,6 +61,7 @@ static void move_all(struct random *random, const struct param *param, cJSON *js
 static cJSON *any_value(struct random *random, const struct record *record, int row, bool wild)
 {
     const struct param *param = &record->type->params[row];
+
     if (wild || param_is_whole(param->type)) {
         return random_value(random, param, NULL);
     }
@@ -69,6 +73,7 @@ static cJSON *any_value(struct random *random, const struct record *record, int 
 static void add(cJSON *ops, const char *at, cJSON *value)
 {
     cJSON *op = cJSON_CreateObject();
+
     cJSON_AddStringToObject(op, "op", "set");
     cJSON_AddStringToObject(op, "at", at);
     cJSON_AddItemToObject(op, "value", value);
@@ -80,6 +85,7 @@ static void add_in(cJSON *ops, struct random *random, const char *of, const stru
 {
     const int row = any_row(random, record);
     char at[200];
+
     if (row < 0) {
         return;
     }
@@ -92,6 +98,7 @@ static void add_node(cJSON *ops, struct random *random, const struct scene *scen
     const struct node *node = any_node(random, scene);
     const bool transform = random_chance(random, 0.4);
     char of[160];
+
     snprintf(of, sizeof of, "/nodes/%s/%s", node->id, transform ? "transform" : "params");
     add_in(ops, random, of, transform ? &node->transform : &node->params, wild);
 }
@@ -111,12 +118,14 @@ static void add_beside(cJSON *ops, struct random *random, const struct scene *sc
 {
     static const char *const places[] = {"/camera", "/environment"};
     const size_t which = random_below(random, 2);
+
     add_in(ops, random, places[which], which ? &scene->environment : &scene->camera, wild);
 }
 
 cJSON *numeric_edit(struct random *random, const struct scene *scene, bool wild)
 {
     cJSON *ops = cJSON_CreateArray();
+
     for (size_t left = 1 + random_below(random, 3); left > 0 || !ops->child; left -= left > 0) {
         const double what = random_between(random, 0, 1);
         if (what < 0.8) {

@@ -225,6 +225,7 @@ struct oracle_tally oracle_judge(const struct oracle *oracle, struct renderer *r
     const int width = oracle->params.width, height = oracle->params.height;
     const int every = oracle->params.every;
     struct job_desc desc = drawing_desc(every * width, every * height);
+
     desc.as_floats = true;
     desc.aovs[AOV_DEPTH] = desc.aovs[AOV_NORMAL] = desc.aovs[AOV_ID] = true;
     struct drawing drawing = drawing_outputs(renderer, resident, &desc);

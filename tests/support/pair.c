@@ -17,6 +17,7 @@ struct pair pair_of(const char *root, const char *more)
     char *text;
     size_t length;
     FILE *out = open_memstream(&text, &length);
+
     assert_non_null(out);
     fprintf(out, "{'format':'fieldcast/1',%s'root':%s}", more, root);
     fclose(out);

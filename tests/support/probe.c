@@ -15,6 +15,7 @@ enum { POINTS, NUMBERS, ANSWERS, GROUP = 64, ANSWER_VEC4S = 1 + FIELD_MATERIAL_V
 bool probe_init(struct probe *probe, struct error *err)
 {
     const struct device_params params = {.index = -1};
+
     *probe = (struct probe){0};
     if (!egl_init(&probe->egl, &params, err)) {
         return false;
@@ -57,6 +58,7 @@ static void write_field(FILE *out, const struct field *field, size_t index, size
                         bool surface)
 {
     static const char *const names[] = {"map", "surface"};
+
     for (size_t i = 0; i < 2; i++) {
         fprintf(out, "#undef %s\n#define %s %s_%zu\n", names[i], names[i], names[i], index);
     }
@@ -90,6 +92,7 @@ static char *program_text(struct field *const *fields, size_t count, bool surfac
     char *text;
     size_t length, numbers;
     FILE *out = open_memstream(&text, &length);
+
     if (!out) {
         abort();
     }
@@ -124,6 +127,7 @@ static char *make_defines(struct field *const *fields, size_t count)
     size_t numbers = 0;
     bool shaders = false;
     char *text;
+
     for (size_t i = 0; i < count; i++) {
         numbers += fields[i]->vec4_count;
         shaders = shaders || fields[i]->shader_count > 0;
@@ -142,6 +146,7 @@ bool probe_program_init(struct probe_program *program, const struct probe *probe
     char *defines = make_defines(fields, count), *numbers;
     char *text = program_text(fields, count, surface, probe->field_mask);
     struct pass pass = {0};
+
     if (asprintf(&numbers, "%s%s", in_block ? head_block : head_texture, head_access) < 0) {
         abort();
     }
@@ -167,6 +172,7 @@ static void set_buffer(const struct probe *probe, int unit, GLenum format, const
                        size_t bytes)
 {
     const struct gl *gl = &probe->gl;
+
     gl->BindBuffer(GL_TEXTURE_BUFFER, probe->buffers[unit]);
     gl->BufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)bytes, data, GL_STREAM_DRAW);
     gl->ActiveTexture(GL_TEXTURE0 + (GLenum)unit);
@@ -177,6 +183,7 @@ static void set_buffer(const struct probe *probe, int unit, GLenum format, const
 static void set_numbers(const struct probe *probe, struct field *const *fields, size_t count)
 {
     size_t vec4s = 0;
+
     for (size_t i = 0; i < count; i++) {
         vec4s += fields[i]->vec4_count;
     }
@@ -206,6 +213,7 @@ void probe_run(const struct probe *probe, const struct probe_program *program,
     const struct gl *gl = &probe->gl;
     size_t groups = (point_count + GROUP - 1) / GROUP, all = groups * GROUP;
     size_t bytes = count * all * ANSWER_VEC4S * 4 * sizeof(float);
+
     float(*padded)[3] = memory_alloc(all, sizeof *padded);
     memcpy(padded, points, point_count * sizeof *points);
     set_buffer(probe, POINTS, GL_R32F, padded, all * sizeof *padded);
@@ -229,6 +237,7 @@ bool probe_agrees(const struct field *field, const float point[3],
                   const struct probe_answer *answer)
 {
     const double p[3] = {point[0], point[1], point[2]};
+
     for (int corner = -1; corner < 8; corner++) {
         double q[3];
         for (int j = 0; j < 3; j++) {

@@ -27,6 +27,7 @@ static void make_leaf(struct maker *maker, int rows)
     static const char *const twos[] = {"p.xy", "p.zx", "b", "c.yz", "vec2(0.5, a)", "m[0].xy"};
     static const char *const threes[] = {"p",          "c",    "p.zxy", "vec3(a)",
                                          "vec3(b, 1)", "m[1]", "m[n]"};
+
     fputs(rows == 1   ? PICK(maker, ones)
           : rows == 2 ? PICK(maker, twos)
                       : PICK(maker, threes),
@@ -57,6 +58,7 @@ static void make_condition(struct maker *maker)
 {
     static const char *const ops[] = {" < ", " > ", " <= ", " >= "};
     static const char *const joins[] = {" && ", " || ", " ^^ "};
+
     fputc('(', maker->out);
     make_value(maker, 1);
     fputs(PICK(maker, ops), maker->out);
@@ -71,6 +73,7 @@ static void make_condition(struct maker *maker)
 static void make_joined(struct maker *maker, int rows)
 {
     static const char *const ops[] = {" + ", " - ", " * "};
+
     fputc('(', maker->out);
     make_value(maker, rows);
     fputs(PICK(maker, ops), maker->out);
@@ -82,6 +85,7 @@ static void make_part(struct maker *maker, int rows)
 {
     static const char *const parts[][3] = {
         {".z", ".x", ".y"}, {".xy", ".zy", ".xx"}, {".yzx", ".xxz", ".zyx"}};
+
     fputc('(', maker->out);
     make_value(maker, 3);
     fprintf(maker->out, ")%s", PICK(maker, parts[rows - 1]));
@@ -159,6 +163,7 @@ char *random_code_make(struct random *random)
     char *text = NULL;
     size_t length;
     struct maker maker = {random, open_memstream(&text, &length), 3};
+
     fputs("void change(inout float x, out vec3 y) { y += vec3(x); x = fract(x * 0.5); }\n"
           "float sdf(vec3 p) {\nfloat a = p.y; vec2 b = p.xz; vec3 c = p * 0.5;\n"
           "mat3 m = mat3(p, c, p.yzx); float e[4] = float[4](0.5, p.x, 1.0, p.z); int n = 1;\n",
@@ -181,6 +186,7 @@ void random_code_damage(struct random *random, char *text, size_t size)
     size_t from = random_below(random, length), to = random_below(random, length);
     size_t count = 1 + random_below(random, 12);
     char part[16];
+
     count = count < length - from ? count : length - from;
     memcpy(part, text + from, count);
     switch (random_below(random, 4)) {
@@ -214,6 +220,7 @@ static bool is_word(char c)
 static size_t token_at(const char *text, size_t at)
 {
     size_t length = 0;
+
     while (is_word(text[at + length])) {
         length++;
     }
@@ -234,6 +241,7 @@ void random_code_swap(struct random *random, char *text, size_t size)
                                         "1",     "2.5",   "7u",      "true",        "1e38",  "-1",
                                         "s",     "a[i]",  "vec2(1)", "mat3(p,p,p)", "{1,2}"};
     size_t length = strlen(text), at = random_below(random, length);
+
     while (at > 0 && is_word(text[at]) && is_word(text[at - 1])) {
         at--;
     }

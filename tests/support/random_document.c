@@ -33,6 +33,7 @@ static double random_number(struct random *random, const struct param *param)
 {
     static const double odd[] = {0.1, 1.0 / 3, 1e-7, 5e-324, 123456.789, 1, 2, 0.30000000000000004};
     double min, max, number;
+
     param_range(param, &min, &max);
     do {
         double low = fmax(min, -100), high = fmin(max, 100);
@@ -54,6 +55,7 @@ static cJSON *random_text(struct random *random)
                                         "\"quoted\" \\ back/slash",
                                         "\xf0\x9f\x90\xa7 penguin",
                                         "two words"};
+
     return cJSON_CreateString(texts[random_below(random, sizeof texts / sizeof texts[0])]);
 }
 
@@ -70,6 +72,7 @@ static cJSON *random_points(struct random *random, const struct param *param)
     static const struct param number = {.type = PARAM_FLOAT};
     cJSON *list = cJSON_CreateArray();
     size_t least = (size_t)param->min, most = (size_t)param->max;
+
     for (size_t i = least + random_below(random, most - least + 1); i > 0; i--) {
         cJSON *pair = cJSON_CreateArray();
         cJSON_AddItemToArray(pair, random_part(random, &number));
@@ -88,6 +91,7 @@ static cJSON *random_row(struct random *random, size_t index)
     struct param param = {.type = types[random_below(random, sizeof types / sizeof types[0])]};
     char name[24];
     cJSON *row = cJSON_CreateObject();
+
     snprintf(name, sizeof name, "%c%zu", random_below(random, 2) ? 'a' : 'b', index);
     cJSON_AddStringToObject(row, "name", name);
     cJSON_AddStringToObject(row, "type", param_type_name(param.type));
@@ -110,6 +114,7 @@ static cJSON *random_row(struct random *random, size_t index)
 static cJSON *random_rows(struct random *random)
 {
     cJSON *rows = cJSON_CreateArray();
+
     for (size_t i = random_below(random, 6); i > 0; i--) {
         cJSON_AddItemToArray(rows, random_row(random, i));
     }
@@ -120,6 +125,7 @@ static cJSON *random_code(struct random *random)
 {
     static const char *const texts[] = {"", "float sdf(vec3 p)\n{\n\treturn length(p) - 0.5;\n}\n",
                                         "no code \xe2\x98\x83 \"at all\"\\"};
+
     return cJSON_CreateString(texts[random_below(random, sizeof texts / sizeof texts[0])]);
 }
 
@@ -127,6 +133,7 @@ static cJSON *random_code(struct random *random)
 static cJSON *random_asset(struct random *random)
 {
     char digest[DIGEST_DIGITS + 1] = "";
+
     for (size_t i = 0, count = random_chance(random, 0.7) ? DIGEST_DIGITS : 0; i < count; i++) {
         digest[i] = "0123456789abcdef"[random_below(random, 16)];
     }
@@ -139,12 +146,14 @@ static cJSON *random_name(struct random *random, const struct scene *scene, int 
     static const struct resource_list none = {0};
     const struct resource_list *list = scene ? random_list(scene, kind) : &none;
     size_t index = random_below(random, list->count + 1);
+
     return cJSON_CreateString(index < list->count ? list->items[index]->name : "");
 }
 
 static cJSON *random_numbers_of(struct random *random, const struct param *param)
 {
     cJSON *array = cJSON_CreateArray();
+
     for (int i = 0; i < param_components(param->type); i++) {
         cJSON_AddItemToArray(array, random_part(random, param));
     }
@@ -157,6 +166,7 @@ static cJSON *random_numbers_of(struct random *random, const struct param *param
 cJSON *random_value(struct random *random, const struct param *param, const struct scene *scene)
 {
     size_t count = 0;
+
     switch (param->type) {
     case PARAM_TEXT:
         return random_text(random);
@@ -197,6 +207,7 @@ static void add_values(struct random *random, cJSON *object, const struct record
                        const struct scene *scene)
 {
     double likely = random_chance(random, 0.5) ? 0.2 : 0.8;
+
     for (const struct param *param = type->params; param->name; param++) {
         if (random_chance(random, likely) &&
             !cJSON_GetObjectItemCaseSensitive(object, param->name)) {
@@ -209,6 +220,7 @@ cJSON *random_record(struct random *random, const struct record_type *type,
                      const struct scene *scene)
 {
     cJSON *object = cJSON_CreateObject();
+
     add_values(random, object, type, scene);
     return object;
 }
@@ -230,6 +242,7 @@ static cJSON *random_params(struct random *random, const struct node_type *type,
     const struct record_type *params = &type->record;
     cJSON *object = cJSON_CreateObject();
     size_t index = random_below(random, primitives->count + 1);
+
     if (type->kind == KIND_CODE) {
         bool named = index < primitives->count;
         params = named ? &primitives->items[index]->declared->type : params;
@@ -243,6 +256,7 @@ cJSON *random_tree(struct random *random, size_t nodes, const struct scene *scen
 {
     const struct node_type *type = random_node_type(random);
     cJSON *node = cJSON_CreateObject();
+
     cJSON_AddStringToObject(node, "type", type->record.name);
     add_values(random, node, &node_common_type, scene);
     cJSON_AddItemToObject(node, "transform", random_record(random, &transform_type, scene));
@@ -263,6 +277,7 @@ const char *random_type_name(struct random *random, int kind, const struct scene
     const struct record_type *table = random_kinds[kind].table;
     const struct resource_list *shaders = &scene->shaders;
     size_t count = 0, more = kind == RANDOM_MATERIALS ? shaders->count : 0;
+
     while (table[count].name) {
         count++;
     }
@@ -277,6 +292,7 @@ cJSON *random_resource(struct random *random, int kind, const struct scene *scen
 {
     const struct random_kind *row = &random_kinds[kind];
     const struct record_type *type = row->table;
+
     if (!type) {
         return random_tree(random, 1 + random_below(random, 4), scene);
     }
@@ -298,6 +314,7 @@ cJSON *random_resource(struct random *random, int kind, const struct scene *scen
 static struct scene *read_again(struct scene *scene, const cJSON *document)
 {
     struct error err = {0};
+
     scene_destroy(scene);
     scene = scene_read(document, &err);
     if (!scene) {
@@ -314,6 +331,7 @@ struct scene *random_document(struct random *random, size_t nodes)
     const struct record_type *const records[] = {&camera_type, &environment_type, &render_type};
     struct scene *scene = scene_create_empty();
     cJSON *document = scene_to_json(scene);
+
     cJSON_AddItemToObject(document, "name", random_text(random));
     for (size_t i = 0; i < sizeof records / sizeof records[0]; i++) {
         cJSON_AddItemToObject(document, records[i]->name, random_record(random, records[i], scene));

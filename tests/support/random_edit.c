@@ -8,6 +8,7 @@
 static const struct node *random_node_of(struct random *random, const struct scene *scene)
 {
     size_t index = random_below(random, scene->node_count);
+
     for (size_t tree = 0; tree <= scene->models.count; tree++) {
         const struct node *top =
             tree < scene->models.count ? scene->models.items[tree]->root : scene->root;
@@ -24,6 +25,7 @@ static const struct node *random_node_of(struct random *random, const struct sce
 static const struct node *random_node_to_set(struct random *random, const struct scene *scene)
 {
     const struct node *node = random_node_of(random, scene);
+
     for (int i = 0; i < 4 && node->type->kind != KIND_CODE && node->type->kind != KIND_MODEL; i++) {
         node = random_node_of(random, scene);
     }
@@ -45,6 +47,7 @@ static cJSON *any_value(struct random *random, const struct param *param, const 
 static cJSON *begin(const char *name, const char *member, const char *place)
 {
     cJSON *op = cJSON_CreateObject();
+
     cJSON_AddStringToObject(op, "op", name);
     cJSON_AddStringToObject(op, member, place);
     return op;
@@ -54,6 +57,7 @@ static cJSON *begin(const char *name, const char *member, const char *place)
 static cJSON *set(const char *prefix, const char *name, cJSON *value)
 {
     char at[200];
+
     snprintf(at, sizeof at, "%s%s%s", prefix, name ? "/" : "", name ? name : "");
     cJSON *op = begin("set", "at", at);
     cJSON_AddItemToObject(op, "value", value);
@@ -64,6 +68,7 @@ static cJSON *set_in(struct random *random, const struct scene *scene, const cha
                      const struct record_type *type)
 {
     size_t count = record_type_count(type);
+
     if (count == 0) {
         return set(prefix, "nothing", cJSON_CreateNumber(1));
     }
@@ -85,6 +90,7 @@ static cJSON *set_in_node(struct random *random, const struct scene *scene)
     const struct node *node = random_node_to_set(random, scene);
     char place[160];
     size_t choice = random_below(random, 6), type = random_below(random, 2 * node_type_count());
+
     snprintf(place, sizeof place, "/nodes/%s%s", node->id,
              choice == 0   ? "/transform"
              : choice <= 3 ? "/params"
@@ -111,6 +117,7 @@ static cJSON *set_in_resource(struct random *random, const struct scene *scene)
     int kind = (int)random_below(random, RANDOM_KINDS);
     const struct random_kind *row = &random_kinds[kind];
     const struct resource_list *list = random_list(scene, kind);
+
     if (list->count == 0) {
         return set_in_node(random, scene);
     }
@@ -138,6 +145,7 @@ static cJSON *random_set(struct random *random, const struct scene *scene)
     const struct record_type *const records[] = {&camera_type, &environment_type, &render_type};
     const struct record_type *record = records[random_below(random, 3)];
     char place[40];
+
     switch (random_below(random, 8)) {
     case 0:
         return set_in(random, scene, "", &scene_info_type);
@@ -165,12 +173,14 @@ static void add_before(struct random *random, cJSON *op, const char *name)
 static const char *some_child(struct random *random, const struct node *node)
 {
     size_t index = random_below(random, node->child_count + 1);
+
     return index < node->child_count ? node->children[index]->id : NULL;
 }
 
 static const char *some_name(struct random *random, const struct resource_list *list)
 {
     size_t index = random_below(random, list->count + 1);
+
     return index < list->count ? list->items[index]->name : NULL;
 }
 
@@ -178,6 +188,7 @@ static cJSON *random_insert(struct random *random, const struct scene *scene)
 {
     char text[100];
     cJSON *op;
+
     if (random_chance(random, 0.5)) {
         int kind = (int)random_below(random, RANDOM_KINDS);
         snprintf(text, sizeof text, "/%s", random_kinds[kind].list);
@@ -201,6 +212,7 @@ static cJSON *random_insert(struct random *random, const struct scene *scene)
 static int random_thing(struct random *random, const struct scene *scene, char place[100])
 {
     int kind = (int)random_below(random, 2 * RANDOM_KINDS);
+
     if (kind >= RANDOM_KINDS) {
         snprintf(place, 100, "/nodes/%s", random_node_of(random, scene)->id);
         return -1;
@@ -216,6 +228,7 @@ static cJSON *random_move(struct random *random, const struct scene *scene)
     int kind = random_thing(random, scene, place);
     const struct node *parent = random_node_of(random, scene);
     cJSON *op = begin("move", "at", place);
+
     if (kind >= 0) {
         snprintf(into, sizeof into, "/%s", random_kinds[kind].list);
     } else {
@@ -231,6 +244,7 @@ static cJSON *random_move(struct random *random, const struct scene *scene)
 static cJSON *random_operation(struct random *random, const struct scene *scene)
 {
     char place[100];
+
     switch (random_below(random, 8)) {
     case 0:
         return random_insert(random, scene);
@@ -247,6 +261,7 @@ static cJSON *random_operation(struct random *random, const struct scene *scene)
 cJSON *random_edit(struct random *random, const struct scene *scene)
 {
     cJSON *ops = cJSON_CreateArray();
+
     for (size_t i = random_chance(random, 0.5) ? 1 : 2 + random_below(random, 3); i > 0; i--) {
         cJSON_AddItemToArray(ops, random_operation(random, scene));
     }
@@ -256,6 +271,7 @@ cJSON *random_edit(struct random *random, const struct scene *scene)
 void random_damage(struct random *random, char *text, size_t length)
 {
     static const char likely[] = "{}[],:\"/0123456789-+.eEtfnul\\ax_ ";
+
     for (size_t i = 1 + random_below(random, 4); i > 0; i--) {
         size_t from = random_below(random, length), to = random_below(random, length);
         text[to] = random_chance(random, 0.4)   ? text[from]

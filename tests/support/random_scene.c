@@ -14,6 +14,7 @@
 static uint64_t next(struct random *random)
 {
     uint64_t z = random->state += UINT64_C(0x9e3779b97f4a7c15);
+
     z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
     z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
     return z ^ z >> 31;
@@ -33,6 +34,7 @@ void random_direction(struct random *random, double out[3])
 {
     double y = random_between(random, -1, 1), angle = random_between(random, 0, 2 * acos(-1));
     double r = sqrt(1 - y * y);
+
     out[0] = r * cos(angle);
     out[1] = y;
     out[2] = r * sin(angle);
@@ -48,6 +50,7 @@ static void useful_range(struct random *random, const struct param *param, int p
                          const struct random_limits *limits, double *low, double *high)
 {
     double least, most, usual = fabs(param->def[part]);
+
     param_range(param, &least, &most);
     if (is_whole(param)) {
         bool ends = param->type == PARAM_IVEC3 && limits->bounded && limits->inner;
@@ -74,6 +77,7 @@ static double component(struct random *random, const struct param *param, int pa
                         const struct random_limits *limits)
 {
     double least, most, low, high;
+
     if (param->type == PARAM_BOOL || param->type == PARAM_BVEC3) {
         return (double)random_below(random, 2);
     }
@@ -104,6 +108,7 @@ static void random_corners(struct random *random, size_t count, double *out)
 {
     double step = 2 * acos(-1) / (double)count * (random_below(random, 2) ? 1 : -1);
     double phase = random_between(random, 0, 7);
+
     for (size_t i = 0; i < count; i++) {
         double angle = phase + step * ((double)i + random_between(random, 0, 0.4));
         double radius = random_between(random, 0.2, 1);
@@ -116,6 +121,7 @@ static void write_components(FILE *out, const struct param *param, const double 
 {
     int count = component_count(param);
     bool boolean = param->type == PARAM_BOOL || param->type == PARAM_BVEC3;
+
     fprintf(out, count > 1 ? "[" : "");
     for (int i = 0; i < count; i++) {
         fprintf(out, i ? "," : "");
@@ -133,6 +139,7 @@ static void write_corners(struct random *random, FILE *out, const struct param *
     double corners[2 * LIMIT_POINTS];
     size_t least = (size_t)param->min;
     size_t count = random_below(random, 16) ? least + random_below(random, 8) : (size_t)param->max;
+
     random_corners(random, count, corners);
     for (size_t i = 0; i < count; i++) {
         fprintf(out, "%s[%.9g,%.9g]", i ? "," : "[", corners[2 * i], corners[2 * i + 1]);
@@ -143,6 +150,7 @@ static void write_corners(struct random *random, FILE *out, const struct param *
 static void write_choice(struct random *random, FILE *out, const struct param *param)
 {
     size_t count = 0;
+
     while (param->choices[count]) {
         count++;
     }
@@ -154,6 +162,7 @@ static void write_params(struct random *random, FILE *out, const struct node_typ
                          const struct random_limits *limits)
 {
     const char *comma = "";
+
     fprintf(out, "'params':{");
     for (const struct param *param = type->record.params; param->name; param++) {
         if (component_count(param) == 0 && param->type != PARAM_ENUM &&
@@ -182,6 +191,7 @@ static void random_transform(struct random *random, const struct node_type *type
 {
     bool uniform = limits->exact || random_below(random, 2);
     double all = random_between(random, 0.6, 1.4);
+
     for (int i = 0; i < 3; i++) {
         translation[i] = random_between(random, -1, 1);
         rotation[i] = random_between(random, -3.2, 3.2);
@@ -197,6 +207,7 @@ static void write_transform(struct random *random, FILE *out, const struct node_
                             const struct random_limits *limits)
 {
     double t[3], r[3], s[3];
+
     random_transform(random, type, limits, t, r, s);
     fprintf(out,
             ",'transform':{'translation':[%.9g,%.9g,%.9g],'rotation':[%.9g,%.9g,%.9g],"
@@ -214,6 +225,7 @@ static bool is_endless(const struct node_type *type)
     const struct sdf *sdf = sdf_find(type);
     double numbers[SDF_NUMBERS_MAX];
     struct record record;
+
     record_init(&record, &type->record);
     sdf_numbers(type->record.params, record.values, numbers);
     record_finish(&record);
@@ -227,6 +239,7 @@ static bool is_endless(const struct node_type *type)
 static bool allowed(const struct node_type *type, const struct random_limits *limits)
 {
     bool shape = type->kind == KIND_SHAPE || type->kind == KIND_FLAT;
+
     if (shape && limits->exact && type->exactness != EXACT) {
         return false;
     }
@@ -265,6 +278,7 @@ static const struct node_type *random_child(struct random *random, const struct 
                                             const struct random_limits *limits, bool first)
 {
     bool deeper = limits->depth > 0 && (limits->lean ? first : random_below(random, 3) != 0);
+
     if (is_section(parent) && !(limits->lean && deeper) && random_below(random, 4)) {
         return random_type(random, KIND_FLAT, limits);
     }
@@ -326,6 +340,7 @@ static void write_material(struct random *random, FILE *out, const struct record
 static void write_materials(struct random *random, FILE *out)
 {
     static const char *const shaders[] = {"phong", "standard", "blinn"};
+
     fprintf(out, "'materials':{");
     for (int i = 0; i < 3; i++) {
         fprintf(out, "%s'm%d':", i ? "," : "", i);
@@ -340,6 +355,7 @@ struct scene *random_scene(struct random *random, const struct node_type *type,
     char *text;
     size_t length;
     FILE *out = open_memstream(&text, &length);
+
     if (!out) {
         abort();
     }
@@ -372,6 +388,7 @@ void random_numbers(struct random *random, struct node *node, const struct rando
 {
     const struct param *params = node->type->record.params;
     struct random_limits here = *limits;
+
     here.inner = node->parent != NULL;
     for (size_t i = 0; params[i].name; i++) {
         random_values(random, &params[i], &node->params.values[i], &here);

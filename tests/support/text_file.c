@@ -13,6 +13,7 @@
 char *text_file_read(const char *path, size_t *out_length)
 {
     FILE *file = fopen(path, "rb");
+
     if (!file) {
         fail_msg("%s cannot be read: tests run in the root of the repository", path);
     }

@@ -248,5 +248,6 @@ int main(void)
         cmocka_unit_test(keys_differ_and_names_follow),
         cmocka_unit_test(authors_of_old_logs_are_claimed_once),
     };
+
     return cmocka_run_group_tests_name("authors", tests, make_directory, remove_directory);
 }

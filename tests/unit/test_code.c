@@ -18,6 +18,7 @@ static struct code *compile(const char *text, enum code_use use, const struct pa
 {
     struct error err = {0};
     struct code *code = code_compile(&(struct code_source){use, text, params, false}, &err);
+
     if (!code) {
         fail_msg("%d:%d: %s\n%s", err.line, err.column, err.message, text);
     }
@@ -44,6 +45,7 @@ static double length3(double x, double y, double z)
 static double box(double x, double y, double z)
 {
     double q[3] = {fabs(x) - 1, fabs(y) - 0.5, fabs(z) - 0.25};
+
     return length3(fmax(q[0], 0), fmax(q[1], 0), fmax(q[2], 0)) +
            fmin(fmax(q[0], fmax(q[1], q[2])), 0);
 }
@@ -52,12 +54,14 @@ static double index_of_vector(double x, double y, double z)
 {
     const double p[3] = {x, y, z};
     int i = fabs(x) < 1 ? 0 : fabs(x) < 2 ? 1 : 2;
+
     return 3 + p[2] * (i >= 0);
 }
 
 static double break_and_continue(double x)
 {
     double sum = 0;
+
     for (int i = 0; i < 9 && i <= x + 4.5; i++) {
         sum += i == 2 ? 0 : i;
     }
@@ -67,18 +71,21 @@ static double break_and_continue(double x)
 static double int_division_of_vectors(double x, double y)
 {
     int a[2] = {(int)(x * 10) / 2 % 3, (int)(y * 10) / 2 % 3};
+
     return a[0] + a[1] * 10 + (int)(fabs(y) * 10) / 3 * 100;
 }
 
 static double int_bits(double x)
 {
     int a = (int)(x * 100);
+
     return ((a & 15) | 32) + (a ^ 5) + ~a + (int)((unsigned)a << 2) + (a >> 1);
 }
 
 static double hash(double x)
 {
     uint32_t h = (uint32_t)(int32_t)floor(x * 8) * 747796405u + 2891336453u;
+
     h = ((h >> ((h >> 28) + 4u)) ^ h) * 277803737u;
     return (double)(((h >> 22) ^ h) & 0xffffu) / 65536;
 }
@@ -86,18 +93,21 @@ static double hash(double x)
 static double smoothstep_backwards(double x)
 {
     double t = clamped(1 - x, 0, 1);
+
     return t * t * (3 - 2 * t) + 1;
 }
 
 static double smooth_union(double a, double b, double k)
 {
     double h = clamped(0.5 + 0.5 * (b - a) / k, 0, 1);
+
     return b * (1 - h) + a * h - k * h * (1 - h);
 }
 
 static double octaves(double x, double y, double z)
 {
     double sum = 0, weight = 1;
+
     for (int i = 1; i <= 5; i++, weight /= 2) {
         sum += weight * sin(x * i + y) * cos(z * i);
     }
@@ -248,6 +258,7 @@ static void accepted_code_gives_its_values(void **state)
 {
     (void)state;
     struct code_blocks blocks = code_blocks_read("tests/code/accepted.glsl");
+
     assert_int_equal(blocks.count, VALUE_COUNT);
     for (size_t i = 0; i < blocks.count; i++) {
         assert_string_equal(blocks.rows[i].head, values[i].name);
@@ -271,6 +282,7 @@ static double hex_prism(const double p[3], double apothem, double half)
 {
     double x = fabs(p[0]), y = fabs(p[1]), z = fabs(p[2]);
     double along = 2 * fmin(-0.8660254 * x + 0.5 * y, 0);
+
     x += along * 0.8660254;
     y -= along * 0.5;
     double side = x - clamped(x, -0.57735 * apothem, 0.57735 * apothem);
@@ -292,6 +304,7 @@ static void listings_of_the_thesis_run(void **state)
     struct code_blocks blocks = code_blocks_read("tests/code/thesis.glsl");
     struct code *prism = compile(blocks.rows[0].text, CODE_DISTANCE, size);
     struct code *shader = compile(blocks.rows[1].text, CODE_SHADE, blend);
+
     for (int i = 0; i < POINTS; i++) {
         assert_value("hex_prism", points[i], code_distance(prism, points[i], h, NULL),
                      hex_prism(points[i], 0.5, 0.75));
@@ -312,5 +325,6 @@ int main(void)
         cmocka_unit_test(accepted_code_gives_its_values),
         cmocka_unit_test(listings_of_the_thesis_run),
     };
+
     return cmocka_run_group_tests_name("code", tests, NULL, NULL);
 }

@@ -27,6 +27,7 @@ static bool refuses(const struct code_block *block)
     const char *head = block->head;
     bool shade = strncmp(head, "shade ", 6) == 0, limit = strncmp(head, "limit ", 6) == 0;
     char *words;
+
     head += shade || limit ? 6 : 0;
     int line = (int)strtol(head, &words, 10), column = (int)strtol(words + 1, &words, 10);
     struct code_source source = {shade ? CODE_SHADE : CODE_DISTANCE, block->text, no_params, false};
@@ -48,6 +49,7 @@ static void refused_code_says_why_and_where(void **state)
 {
     (void)state;
     struct code_blocks blocks = code_blocks_read("tests/code/refused.glsl");
+
     assert_int_equal(blocks.count, 196);
     size_t right = 0;
     for (size_t i = 0; i < blocks.count; i++) {
@@ -64,6 +66,7 @@ static char *repeated(const char *before, const char *part, size_t count, const 
 {
     size_t length = strlen(before) + count * strlen(part) + strlen(after);
     char *text = malloc(length + 1), *at = text;
+
     assert_non_null(text);
     at = stpcpy(at, before);
     for (size_t i = 0; i < count; i++) {
@@ -78,6 +81,7 @@ static void assert_limit(const char *text, bool passes, const char *words)
     struct error err = {0};
     struct code_source source = {CODE_DISTANCE, text, no_params, false};
     struct code *code = code_compile(&source, &err);
+
     if (passes && !code) {
         fail_msg("%d:%d: %s\n%.200s", err.line, err.column, err.message, text);
     }
@@ -105,6 +109,7 @@ static void bytes_are_limited(void **state)
     static const char code[] = "float sdf(vec3 p) { return 1.0; }//";
     (void)state;
     size_t room = LIMIT_CODE_BYTES - (sizeof code - 1);
+
     assert_parts(code, "", "", "x", "", room, "code of 16385 bytes, above the maximum 16384");
     /* What Mesa's compiler dies of. */
     char *text = repeated("float sdf(vec3 p) { return p.x", "+1", 20000, "; }");
@@ -117,6 +122,7 @@ static void depth_is_limited(void **state)
     (void)state;
     const char *words = "nesting above the maximum 64 (code_depth)";
     const char *head = "float sdf(vec3 p) { return ", *tail = "; }"; /* one level already */
+
     assert_parts(head, "(", "1.0", ")", tail, 63, words);
     assert_parts(head, "sin(", "1.0", ")", tail, 63, words);
     assert_parts(head, "vec2(", "1.0", ").x", tail, 63, words);
@@ -158,6 +164,7 @@ static void rows_of_operators_are_limited(void **state)
     (void)state;
     const char *words = "operations in a row above the maximum 256";
     const char *head = "float sdf(vec3 p) { return p.x", *tail = "; }";
+
     assert_parts(head, " + 1", "", "", tail, 254, words); /* p, its member, and one more */
     assert_parts(head, ".x", "", "", tail, 254, words);
     assert_parts("float sdf(vec3 p) { p.x", ", 1", "", "", "; return 1.0; }", 254, words);
@@ -202,6 +209,7 @@ static void size_is_limited(void **state)
 {
     (void)state;
     const char *words = "operations, with every call written out, above the maximum 4096";
+
     /* A statement, the assignment twice for what it computes, the cost of one vec3: 7. The return
      * is a statement more. */
     const char *add = "p += p;";
@@ -228,6 +236,7 @@ static void bytes_of_arrays_are_limited(void **state)
     (void)state;
     const char *words = "bytes of arrays, with every call written out, above the maximum 2048 "
                         "(code_array_bytes)";
+
     assert_parts("float sdf(vec3 p) {", "{mat4 a[8];}", "", "", "return p.x; }", 4, words);
     assert_parts("float f(float x) { float a[64]; return x; }\n"
                  "float sdf(vec3 p) { float a = p.x;",
@@ -242,6 +251,7 @@ static void compile_bombs_are_refused(void **state)
     (void)state;
     const char *words = "operations, with every call written out, above the maximum 4096";
     const char *head = "float sdf(vec3 p) { float a = p.x;", *tail = "return a; }";
+
     /* A statement, an assignment, and 52 for the sine. */
     assert_parts(head, "a=sin(a);", "", "", tail, (4096 - 2) / 54, words);
     const char *const parts[] = {"a = pow(a, 0.5);",         "a = fbm(p + a, 8);",
@@ -274,6 +284,7 @@ static void trips_are_limited(void **state)
 {
     (void)state;
     const char *words = "iterations of loops above the maximum 256 (code_trips)";
+
     assert_limit("float sdf(vec3 p) { for (int i = 0; i < 256; i++) {} return 1.0; }", true, words);
     assert_limit("float sdf(vec3 p) { for (int i = 0; i < 257; i++) {} return 1.0; }", false,
                  words);
@@ -294,6 +305,7 @@ static void work_is_limited(void **state)
 {
     (void)state;
     const char *words = "with its loops run through, above the maximum 65536 (code_work)";
+
     /* 255 times 256 operations: the pass itself, 36 statements of 7, and three of one. */
     const char *head = "float sdf(vec3 p) { for (int i = 0; i < 255; i++) {";
     assert_parts(head, "p += p;", "1;1;1;", "", "} return p.x; }", 36, words);
@@ -324,6 +336,7 @@ static void try_text(const char *text)
     struct error err = {0};
     struct code_source source = {CODE_DISTANCE, text, no_params, false};
     struct code *code = code_compile(&source, &err);
+
     if (!code) {
         assert_true(err.line >= 1 && err.column >= 1 && err.message[0] != '\0');
         return;
@@ -369,6 +382,7 @@ static void tokens_in_any_order_are_refused_or_run(void **state)
         "*",     "/",    "++",    "?",      ":",     "<",   "&&",  "1",     "2.5",    "0",
         "for",   "if",   "else",  "return", "const", "in",  "out", "sin",   "length", "true",
         "void",  "mat3", "break", "!",      "~",     "<<",  "%",   "ivec2", "uint",   "bool"};
+
     enum { WORDS = sizeof words / sizeof words[0], ROUNDS = 4000 };
     struct random random = {.state = 7};
     (void)state;
@@ -436,6 +450,7 @@ static void long_texts_are_read_quickly(void **state)
     static const char *const heads[] = {"", "float sdf(vec3 p) { ", "float sdf(vec3 p) { return ",
                                         "float sdf(vec3 p) { float a = ", "float a = "};
     (void)state;
+
     for (size_t h = 0; h < sizeof heads / sizeof heads[0]; h++) {
         for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
             size_t count = (LIMIT_CODE_BYTES - strlen(heads[h])) / strlen(parts[i]);
@@ -452,6 +467,7 @@ static void many_names_are_read_quickly(void **state)
     char *text = NULL;
     size_t length;
     FILE *out = open_memstream(&text, &length);
+
     fprintf(out, "float sdf(vec3 p) { float a0 = p.x;");
     for (int i = 1; i < 600; i++) {
         fprintf(out, "float a%d = a%d * 1.001;", i, i / 2);
@@ -487,5 +503,6 @@ int main(void)
         cmocka_unit_test(long_texts_are_read_quickly),
         cmocka_unit_test(many_names_are_read_quickly),
     };
+
     return cmocka_run_group_tests_name("refused code", tests, NULL, NULL);
 }

@@ -22,6 +22,7 @@ static struct code *compile(const char *text, enum code_use use, const struct pa
 {
     struct error err = {0};
     struct code *code = code_compile(&(struct code_source){use, text, params, false}, &err);
+
     if (!code) {
         fail_msg("%d:%d: %s\n%s", err.line, err.column, err.message, text);
     }
@@ -50,6 +51,7 @@ static double run_with_params(const char *text)
 {
     struct code *code = compile(text, CODE_DISTANCE, every_type);
     double d = code_distance(code, (double[3]){0, 0, 0}, every_number, NULL);
+
     code_destroy(code);
     return d;
 }
@@ -113,6 +115,7 @@ static void parameters_are_not_assigned(void **state)
 static void shaders_see_the_point(void **state)
 {
     const struct code_shading at = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}, 13};
+
     static const struct {
         const char *text;
         double rgba[4];
@@ -176,6 +179,7 @@ static char *written(const char *text, const struct param *params)
     size_t length;
     struct code *code = compile(text, CODE_DISTANCE, params);
     FILE *out = open_memstream(&out_text, &length);
+
     code_write(code, "user_7", 33, out);
     fclose(out);
     code_destroy(code);
@@ -226,6 +230,7 @@ static void written_text_names_lines(void **state)
                          "float unused(float a) { return a; }\n"
                          "float sdf(vec3 p) {\n  p += 1.0;\n  p.x = v3.y;\n\n  return g(p.x); }",
                          every_type);
+
     assert_string_equal(
         glsl, "float user_7_d4 = float(0);\nvec3 user_7_d8 = vec3(0);\n"
               "#line 1 33\nconst float[2] user_7_v0 = float[2](1.0, 2.0);\n"
@@ -286,6 +291,7 @@ static void probe(const char *text, enum code_use use, double lipschitz, const c
     struct code *code = compile(text, use, no_params);
     struct code_probe probe;
     bool fits = true;
+
     code_probe_begin(&probe, code, NULL, low, high, lipschitz);
     while (fits && probe.asked < probe.points) {
         fits = code_probe_ask(&probe, &err);
@@ -339,6 +345,7 @@ static void members_of_surface_are_documented(void **state)
 {
     (void)state;
     char *page = text_file_read("protocol/README.md", NULL);
+
     for (int i = 0; i < SURFACE_MEMBERS; i++) {
         const struct surface_member *member = &surface_members[i];
         char row[120];
@@ -365,5 +372,6 @@ int main(void)
         cmocka_unit_test(probes_find_what_is_wrong),
         cmocka_unit_test(members_of_surface_are_documented),
     };
+
     return cmocka_run_group_tests_name("code in use", tests, NULL, NULL);
 }

@@ -53,5 +53,6 @@ int main(void)
         cmocka_unit_test(the_median_of_that_size_counts),
         cmocka_unit_test(old_ones_are_forgotten),
     };
+
     return cmocka_run_group_tests_name("compiles", tests, NULL, NULL);
 }

@@ -143,6 +143,7 @@ static void long_flat_run(void **state)
 static struct file runs(int width, int height, uint8_t *pixels)
 {
     char size[40];
+
     snprintf(size, sizeof size, "-Y %d +X %d\n", height, width);
     struct file file = radiance(size);
 
@@ -501,5 +502,6 @@ int main(void)
         cmocka_unit_test(interlaced_averaged),
         cmocka_unit_test(mangled_files_are_survived),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

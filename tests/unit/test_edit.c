@@ -162,6 +162,7 @@ static void all_or_none(void **state)
                              "{'op':'remove','at':'/materials/coal'},"
                              "{'op':'set','at':'/nodes/hat/params/height','value':2}]");
     cJSON *applied = NULL, *inverse = NULL;
+
     assert_false(edit_apply(scene, ops, &applied, &inverse, &err));
     assert_int_equal(err.kind, ERROR_NOT_FOUND);
     assert_string_equal(err.place, "/nodes/hat/params/height");
@@ -182,6 +183,7 @@ static void some_leaves_out_what_is_gone(void **state)
                              "{'op':'insert','into':'/nodes/root','before':'nobody',"
                              "'value':{'type':'box'}}]");
     cJSON *applied;
+
     assert_true(edit_apply_some(scene, ops, &applied, NULL, &err));
     edits_assert_prints(applied, "[{'op':'insert','into':'/nodes/root','before':null,"
                                  "'value':{'id':'box-1','type':'box'}}]");
@@ -197,6 +199,7 @@ static void ids_are_not_used_again(void **state)
     cJSON *ops = edits_parse("[{'op':'insert','into':'/nodes/root','value':{'type':'box'}},"
                              "{'op':'remove','at':'/nodes/box-1'},"
                              "{'op':'insert','into':'/nodes/root','value':{'type':'box'}}]");
+
     assert_true(edit_apply(scene, ops, NULL, NULL, &err));
     assert_null(scene_find(scene, "box-1"));
     assert_non_null(scene_find(scene, "box-2"));
@@ -206,6 +209,7 @@ static void ids_are_not_used_again(void **state)
 static void insert_chain(const char *into, int levels, bool ok)
 {
     cJSON *ops = cJSON_CreateArray(), *op = cJSON_CreateObject(), *value = cJSON_CreateObject();
+
     cJSON_AddStringToObject(value, "type", "group");
     for (int i = 1; i < levels; i++) {
         cJSON *outer = cJSON_CreateObject();
@@ -238,6 +242,7 @@ static void depth_holds_in_edits(void **state)
 static cJSON *many_inserts(int count, const char *into)
 {
     cJSON *ops = cJSON_CreateArray();
+
     for (int i = 0; i < count; i++) {
         cJSON *op = cJSON_CreateObject();
         cJSON_AddStringToObject(op, "op", "insert");
@@ -253,6 +258,7 @@ static void counts_hold_in_edits(void **state)
 {
     (void)state;
     cJSON *ops = many_inserts(LIMIT_OPERATIONS, "/nodes/head");
+
     assert_true(edit_check(ops, &err));
     assert_true(edit_apply(scene, ops, NULL, NULL, &err));
     assert_false(edit_apply(scene, ops, NULL, NULL, &err));
@@ -274,6 +280,7 @@ static size_t weight_of(const char *text, size_t most)
 {
     cJSON *ops = edits_parse(text);
     const size_t weight = edit_weight(scene, ops, most);
+
     cJSON_Delete(ops);
     return weight;
 }
@@ -314,6 +321,7 @@ static void weight_stops_at_most(void **state)
 {
     (void)state;
     cJSON *ops = many_inserts(LIMIT_OPERATIONS, "/nodes/head");
+
     assert_in_range(edit_weight(scene, ops, 500), 501, 510);
     cJSON_Delete(ops);
     assert_int_equal(edit_weight(scene, NULL, 500), 0);
@@ -336,5 +344,6 @@ int main(void)
         cmocka_unit_test_setup_teardown(weight_counts_what_is_moved, set_up, tear_down),
         cmocka_unit_test_setup_teardown(weight_stops_at_most, set_up, tear_down),
     };
+
     return cmocka_run_group_tests_name("edit", tests, NULL, NULL);
 }

@@ -68,6 +68,7 @@ static void note_reached(const cJSON *applied, const cJSON *inverse)
 {
     const char *name = cJSON_GetObjectItem(applied->child, "op")->valuestring;
     const cJSON *at = cJSON_GetObjectItem(applied->child, "at");
+
     at = at ? at : cJSON_GetObjectItem(applied->child, "into");
     for (int i = 0; i < REACHED && !applied->child->next; i++) {
         size_t length = strlen(at->valuestring), end = strlen(reached[i].ends);
@@ -92,6 +93,7 @@ static void assert_same_users(const struct scene *a, const struct scene *b)
 static size_t height_of(const struct node *node)
 {
     size_t height = 1;
+
     for (size_t i = 0; i < node->child_count; i++) {
         size_t child = height_of(node->children[i]);
         assert_int_equal(node_position(node->children[i]), i);
@@ -115,6 +117,7 @@ static void assert_trees(const struct scene *scene)
 static struct scene *parse(const char *text)
 {
     struct scene *scene = scene_parse(text, strlen(text), &err);
+
     assert_non_null(scene); /* whatever edits do, the document stays valid */
     return scene;
 }
@@ -130,6 +133,7 @@ static void follow(struct edited *edited, struct scene *copy, const cJSON *ops,
                    const cJSON *applied, const cJSON *inverse)
 {
     char *after = scene_print(edited->wild, false);
+
     assert_true(edit_apply(copy, applied, NULL, NULL, &err));
     char *again = scene_print(copy, false);
     assert_same(after, again, ops);
@@ -151,6 +155,7 @@ static bool try_edit(struct edited *edited, struct random *random)
     cJSON *ops = random_edit(random, edited->wild), *applied, *inverse;
     struct scene *copy = scene_copy(edited->wild);
     const bool accepted = edit_apply(edited->wild, ops, &applied, &inverse, &err);
+
     if (accepted) {
         follow(edited, copy, ops, applied, inverse);
         cJSON_Delete(applied);
@@ -175,6 +180,7 @@ static void random_edits_have_exact_inverses(void **state)
 {
     (void)state;
     int accepted = 0, refused = 0;
+
     for (uint64_t seed = 1; seed <= DOCUMENTS; seed++) {
         struct random random = {seed};
         struct edited edited = {.wild = random_document(&random, 1 + random_below(&random, 20))};
@@ -207,6 +213,7 @@ static void damaged_edits(void **state)
     struct scene *wild = random_document(&random, 30);
     char *before = scene_print(wild, false);
     int accepted = 0, refused = 0;
+
     for (int i = 0; i < DAMAGED; i++) {
         cJSON *edit = random_edit(&random, wild), *inverse;
         char *text = json_print(edit, false);
@@ -243,5 +250,6 @@ int main(void)
         cmocka_unit_test(random_edits_have_exact_inverses),
         cmocka_unit_test(damaged_edits),
     };
+
     return cmocka_run_group_tests_name("edit_random", tests, NULL, NULL);
 }

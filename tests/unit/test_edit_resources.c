@@ -234,6 +234,7 @@ static void no_circles(void **state)
 {
     (void)state;
     static const char circle[] = "models in a circle: /models/pawn -> /models/pair -> /models/pawn";
+
     edits_assert_fails(scene,
                        "[{'op':'insert','into':'/nodes/p','value':{'type':'group',"
                        "'children':[{'type':'model','params':{'model':'pair'}}]}}]",
@@ -294,5 +295,6 @@ int main(void)
         cmocka_unit_test_setup_teardown(no_circles, set_up, tear_down),
         cmocka_unit_test_setup_teardown(counts_hold_in_edits, set_up, tear_down),
     };
+
     return cmocka_run_group_tests_name("edit_resources", tests, NULL, NULL);
 }

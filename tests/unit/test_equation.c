@@ -23,6 +23,7 @@ static struct equation *read(const char *text)
 {
     struct equation_errors errors;
     struct equation *equation = equation_read(text, letters, &errors);
+
     if (!equation) {
         fail_msg("%s\n%d:%d: %s", text, errors.list[0].line, errors.list[0].column,
                  errors.list[0].message);
@@ -222,6 +223,7 @@ static void several_errors_are_told(void **state)
 {
     struct equation_errors errors;
     (void)state;
+
     assert_null(equation_read("q + sine(x)\n + max(y) + (z", letters, &errors));
     assert_int_equal(errors.count, 4);
     assert_int_equal(errors.list[1].column, 5);
@@ -237,6 +239,7 @@ static bool is_read(const char *text)
 {
     struct equation_errors errors;
     struct equation *equation = equation_read(text, letters, &errors);
+
     free(equation);
     return equation != NULL;
 }
@@ -247,6 +250,7 @@ static char *repeated(const char *head, const char *part, int times, const char 
     char *text = NULL;
     size_t length = 0;
     FILE *out = open_memstream(&text, &length);
+
     fputs(head, out);
     for (int i = 0; i < times; i++) {
         for (const char *c = part; *c; c++) {
@@ -304,6 +308,7 @@ static void random_texts_do_no_harm(void **state)
         "x", "y", "z", "a",  "2",      "0.5",  "(", ")",  "+",  "-",
         "*", "/", "^", "^2", "sin(",   "max(", ",", "=",  "<",  " ",
         "|", ";", "r", ":=", "\u00b2", "pi",   ".", "1e", "\n", "hypot("};
+
     enum { ROUNDS = 20000, PARTS = sizeof parts / sizeof parts[0] };
     struct random random = {.state = 99};
     int valid = 0;
@@ -352,6 +357,7 @@ static void poles_are_told_from_zeros(void **state)
 {
     static const double half[3] = {2, 2, 2};
     (void)state;
+
     for (size_t i = 0; i < sizeof poles / sizeof *poles; i++) {
         struct equation *equation = read(poles[i].text);
         double at[3];
@@ -369,6 +375,7 @@ static void a_pole_has_its_place(void **state)
     double at[3];
     (void)state;
     struct equation *equation = read("y = 1/(x - a)");
+
     assert_true(equation_pole(equation, values, half, at));
     assert_true(fabs(at[0] - A) < 1e-6 && fabs(at[1]) <= 2 && fabs(at[2]) <= 2);
     static const double small[3] = {0.4, 2, 2};
@@ -384,5 +391,6 @@ int main(void)
         cmocka_unit_test(random_texts_do_no_harm),    cmocka_unit_test(poles_are_told_from_zeros),
         cmocka_unit_test(a_pole_has_its_place),
     };
+
     return cmocka_run_group_tests_name("equations", tests, NULL, NULL);
 }

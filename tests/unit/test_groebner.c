@@ -44,6 +44,7 @@ static void random_monomial(exponents out)
 static void check_axioms(const struct order *order)
 {
     exponents a, b, c, left = {0}, right = {0}, one = {0};
+
     random_monomial(a);
     random_monomial(b);
     random_monomial(c);
@@ -75,6 +76,7 @@ static void orders_are_admissible(void **state)
 static int compare_by_definition(enum order_kind kind, const exponents a, const exponents b)
 {
     ulong left = 0, right = 0;
+
     for (int i = 0; i < LETTERS; i++) {
         left += a[i];
         right += b[i];
@@ -150,6 +152,7 @@ static void set_random(struct polynomial *out, const struct ring *ring, int term
 {
     fmpz_mpoly_ctx_t plain;
     fmpz_mpoly_t f;
+
     fmpz_mpoly_ctx_init(plain, LETTERS, ORD_LEX);
     fmpz_mpoly_init(f, plain);
     do {
@@ -184,6 +187,7 @@ static void rest_is_reduced(const struct polynomial *rest, const struct polynomi
                             const struct ring *ring)
 {
     exponents leading;
+
     polynomial_exponents(divisor, 0, ring, leading);
     for (slong n = 0; n < polynomial_terms(rest, ring); n++) {
         exponents a;
@@ -199,6 +203,7 @@ static void identity_holds(const struct division *d, const struct polynomial *f,
     struct polynomial sum;
     nmod_mpoly_t residue;
     fmpz_mpoly_t whole;
+
     polynomial_init(&sum, ring);
     nmod_mpoly_init(residue, ring->residues);
     fmpz_mpoly_init(whole, ring->whole);
@@ -222,6 +227,7 @@ static void divide_once(const struct ring *ring)
     struct polynomial f, g[2];
     struct division division;
     const struct polynomial *divisors[] = {&g[0], &g[1]};
+
     polynomial_init(&f, ring), polynomial_init(&g[0], ring), polynomial_init(&g[1], ring);
     set_random(&f, ring, 8), set_random(&g[0], ring, 3), set_random(&g[1], ring, 3);
     terms_fall(&f, ring);
@@ -274,6 +280,7 @@ static void make_basis(struct making *m, const char *text, enum order_kind kind,
     struct record asked;
     struct error err = {0};
     struct polynomial f;
+
     record_init(&asked, &ideal_type);
     record_put_text(&asked, "generators", text);
     record_put(&asked, "order", kind);
@@ -306,6 +313,7 @@ static char *print_basis(const struct making *m)
     char *text = NULL;
     size_t length;
     FILE *out = open_memstream(&text, &length);
+
     for (int i = 0; i < m->g.count; i++) {
         polynomial_print(&m->g.elements[i], m->ideal.letters, &m->ring, out);
         fputc('\n', out);
@@ -318,6 +326,7 @@ static char *basis_of(const char *text, enum order_kind kind, int turn,
                       const struct groebner_params *params, struct groebner_counts *out_counts)
 {
     struct making m;
+
     make_basis(&m, text, kind, 0, turn, params);
     assert_true(groebner_is_basis(&m.g));
     *out_counts = m.g.counts;
@@ -335,6 +344,7 @@ static void same_by_all_roads(const char *text, enum order_kind kind)
 {
     struct groebner_counts counts, all;
     char *expected = basis_of(text, kind, 0, &(struct groebner_params){0}, &all);
+
     for (int road = 0; road < 12; road++) {
         const struct groebner_params params = {.strategy = (enum pair_strategy)(road % 3),
                                                .coprime = road / 3 % 2 != 0,
@@ -364,6 +374,7 @@ static void each_criterion_saves_divisions(void **state)
 {
     size_t saved[2] = {0};
     (void)state;
+
     for (int i = 0; i < IDEALS; i++) {
         struct groebner_counts none, one;
         free(basis_of(ideals[i], ORDER_GREVLEX, 0, &(struct groebner_params){0}, &none));
@@ -411,6 +422,7 @@ static void a_basis_of_the_book(void **state)
     struct groebner_counts counts;
     (void)state;
     char *text = basis_of(ideals[3], ORDER_LEX, 0, &(struct groebner_params){0}, &counts);
+
     assert_string_equal(text, "4*z^4 + 2*z^2 - 1\ny - 2*z^2\nx - z\n");
     free(text);
 }
@@ -427,5 +439,6 @@ int main(void)
         cmocka_unit_test(bases_modulo_a_prime_are_those_of_the_rationals),
         cmocka_unit_test(a_basis_of_the_book),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,6 +23,7 @@ enum { FEW = 500, MANY = 16 * FEW, RUNS = 5 };
 static double now(void)
 {
     struct timespec time;
+
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
@@ -44,6 +45,7 @@ static char *document(size_t count)
     char *text;
     size_t length;
     FILE *out = open_memstream(&text, &length);
+
     assert_non_null(out);
     fprintf(out, "{'format':'fieldcast/1','models':{'little':{'type':'box'},'m':{'id':'m',"
                  "'type':'union'}");
@@ -64,6 +66,7 @@ static cJSON *add(cJSON *ops, const char *name, const char *member, const char *
 {
     char place[64];
     cJSON *op = cJSON_CreateObject();
+
     snprintf(place, sizeof place, "%s%zu", form, number);
     cJSON_AddStringToObject(op, "op", name);
     cJSON_AddStringToObject(op, member, form[strlen(form) - 1] == '/' ? form : place);
@@ -74,6 +77,7 @@ static cJSON *add(cJSON *ops, const char *name, const char *member, const char *
 static cJSON *add_into(cJSON *ops, const char *into, const char *type)
 {
     cJSON *op = cJSON_CreateObject(), *value;
+
     cJSON_AddStringToObject(op, "op", "insert");
     cJSON_AddStringToObject(op, "into", into);
     value = cJSON_AddObjectToObject(op, "value");
@@ -152,6 +156,7 @@ static double time_edit(const struct scene *scene, size_t size,
     struct error err = {0};
     struct scene *copy = scene_copy(scene);
     cJSON *ops = cJSON_CreateArray(), *inverse;
+
     make(ops, size);
     double start = now();
     if (!edit_apply(copy, ops, NULL, &inverse, &err)) {
@@ -170,6 +175,7 @@ static double time_parse(const char *text, size_t length)
     double start = now();
     struct scene *scene = scene_parse(text, length, NULL);
     double taken = now() - start;
+
     assert_non_null(scene);
     scene_destroy(scene);
     return taken;
@@ -178,6 +184,7 @@ static double time_parse(const char *text, size_t length)
 static double time_print(const struct scene *scene)
 {
     double start = now();
+
     free(scene_print(scene, false));
     return now() - start;
 }
@@ -185,6 +192,7 @@ static double time_print(const struct scene *scene)
 static double time_copy(const struct scene *scene)
 {
     double start = now();
+
     scene_destroy(scene_copy(scene));
     return now() - start;
 }
@@ -209,6 +217,7 @@ static void measure(size_t count, double least[KINDS])
 {
     char *text = document(count);
     struct scene *scene = scene_parse(text, strlen(text), NULL);
+
     assert_non_null(scene);
     for (int run = 0; run < RUNS; run++) {
         for (int i = 0; i < EDITS; i++) {
@@ -226,6 +235,7 @@ static void sixteen_times_as_much(void **state)
 {
     (void)state;
     double few[KINDS] = {0}, many[KINDS] = {0};
+
     measure(FEW, few);
     measure(MANY, many);
     for (int i = 0; i < KINDS; i++) {
@@ -242,5 +252,6 @@ static void sixteen_times_as_much(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(sixteen_times_as_much)};
+
     return cmocka_run_group_tests_name("growth", tests, NULL, NULL);
 }

@@ -308,5 +308,6 @@ int main(void)
         cmocka_unit_test(odd_depths),
         cmocka_unit_test(needs_ids_and_distances),
     };
+
     return cmocka_run_group_tests_name("guide", tests, NULL, NULL);
 }

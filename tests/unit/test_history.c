@@ -47,6 +47,7 @@ static void record(struct history *steps, const char *author, const char *group,
 {
     struct history_entry entry = {
         .author = author, .group = group, .applied = applied, .inverse = inverse};
+
     history_depth(steps, author, &entry.undo, &entry.redo);
     history_record(steps, &entry);
     cJSON_Delete(applied);
@@ -55,6 +56,7 @@ static void record(struct history *steps, const char *author, const char *group,
 static void edit_as(const char *author, const char *group, const char *text)
 {
     cJSON *ops = json_text_parse(text, &err), *applied, *inverse;
+
     assert_non_null(ops);
     assert_true(edit_apply(scene, ops, &applied, &inverse, &err));
     record(history, author, group, applied, inverse);
@@ -64,6 +66,7 @@ static void edit_as(const char *author, const char *group, const char *text)
 static void set_radius(const char *author, const char *group, const char *id, double radius)
 {
     char text[200];
+
     snprintf(text, sizeof text, "[{'op':'set','at':'/nodes/%s/params/radius','value':%g}]", id,
              radius);
     edit_as(author, group, text);
@@ -87,6 +90,7 @@ static bool redo(const char *author)
 static void assert_depth(const char *author, size_t undo_steps, size_t redo_steps)
 {
     size_t undos, redos;
+
     history_depth(history, author, &undos, &redos);
     assert_int_equal(undos, undo_steps);
     assert_int_equal(redos, redo_steps);
@@ -105,6 +109,7 @@ static void a_group_is_one_step(void **state)
 {
     (void)state;
     char *before = scene_print(scene, false);
+
     for (int i = 1; i <= 1000; i++) {
         set_radius("anna", "drag", "body", i);
     }
@@ -169,6 +174,7 @@ static void newer_values_of_others_are_left_alone(void **state)
 {
     (void)state;
     struct history_move move;
+
     set_radius("bert", "", "body", 0.4);
     set_radius("anna", "", "body", 0.7);
     assert_false(history_undo(history, scene, "bert", &move, &err));
@@ -186,6 +192,7 @@ static void the_rest_of_such_a_step_is_undone(void **state)
 {
     (void)state;
     struct history_move move;
+
     set_radius("bert", "g", "body", 0.4);
     set_radius("bert", "g", "head", 0.3);
     set_radius("bert", "g", "body", 0.6);
@@ -219,6 +226,7 @@ static void groups_with_more_than_values_keep_all(void **state)
 {
     (void)state;
     char *before = scene_print(scene, false);
+
     edit_as("anna", "g", "[{'op':'set','at':'/nodes/body/material','value':'snow'}]");
     edit_as("anna", "g",
             "[{'op':'insert','into':'/materials','name':'new',"
@@ -256,6 +264,7 @@ static void groups_keep_what_values_depend_on(void **state)
          "[{'op':'set','at':'/nodes/y/params/model','value':null}]",
          "[{'op':'set','at':'/nodes/x/params/model','value':'n'}]"},
     };
+
     for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++) {
         tear_down(NULL);
         scene = json_text_scene(text, &err);
@@ -321,6 +330,7 @@ static bool log_edit(struct logged *entry, struct random *random, struct scene *
 {
     cJSON *ops = random_edit(random, wild), *inverse;
     bool ok = edit_apply(wild, ops, &entry->applied, &inverse, NULL);
+
     if (ok) {
         history_depth(steps, entry->author, &entry->undo, &entry->redo);
         entry->group = random_below(random, 2) ? "g" : "";
@@ -343,6 +353,7 @@ static bool log_move(struct logged *entry, struct scene *wild, struct history *s
     struct history_move move;
     bool ok = (entry->kind == HISTORY_UNDO ? history_undo
                                            : history_redo)(steps, wild, entry->author, &move, NULL);
+
     if (ok) {
         entry->label = strdup(move.label);
         entry->inverse = cJSON_Duplicate(move.inverse, true);
@@ -370,6 +381,7 @@ static size_t log_random(struct logged *log, struct random *random, struct scene
                          struct history *steps)
 {
     size_t count = 0;
+
     while (count < LOGGED) {
         struct logged *entry = &log[count];
         unsigned kind = random_below(random, 6);
@@ -387,6 +399,7 @@ static size_t log_random(struct logged *log, struct random *random, struct scene
 static struct history *rebuild(const struct logged *log, size_t count)
 {
     struct history *steps = history_create();
+
     for (size_t i = 0; i < count; i++) {
         history_record(steps, &(struct history_entry){.kind = log[i].kind,
                                                       .author = log[i].author,
@@ -453,6 +466,7 @@ static void random_step(struct random *random, struct scene *wild, struct histor
 {
     static const char *const groups[] = {"", "", "a", "b"};
     cJSON *ops = random_edit(random, wild), *applied, *inverse;
+
     if (edit_apply(wild, ops, &applied, &inverse, NULL)) {
         record(steps, authors[random_below(random, 2)], groups[random_below(random, 4)], applied,
                inverse);
@@ -465,6 +479,7 @@ static void undos_and_redos_cancel(void **state)
 {
     (void)state;
     size_t total = 0;
+
     for (uint64_t seed = 1; seed <= 150; seed++) {
         struct random random = {seed};
         struct scene *wild = random_document(&random, 1 + random_below(&random, 20));
@@ -552,5 +567,6 @@ int main(void)
         cmocka_unit_test(a_log_gives_back_the_steps),
         cmocka_unit_test(undoing_everything_gives_the_beginning),
     };
+
     return cmocka_run_group_tests_name("history", tests, NULL, NULL);
 }

@@ -688,6 +688,7 @@ static void refused_materials(void **state)
 {
     static const char shader[] = "{'name': 'S', 'properties': ['[float] [Range(0, 1)] _A',"
                                  " '[float3] _B'], 'code': ''}";
+
     static const struct {
         const char *property, *message;
     } rows[] = {

@@ -27,6 +27,7 @@ static int set_up(void **state)
     (void)state;
     size_t length;
     char *text = text_file_read("tests/invalid/base.json", &length);
+
     base = scene_parse(text, length, NULL);
     free(text);
     base_text = base ? scene_print(base, true) : NULL;
@@ -47,6 +48,7 @@ static char *case_bytes(const cJSON *json, size_t *out_length)
     const char *text = json_member_text(json, "text", NULL);
     const char *hex = json_member_text(json, "hex", NULL);
     const cJSON *value = cJSON_GetObjectItemCaseSensitive(json, "value");
+
     assert_int_equal((text != NULL) + (hex != NULL) + (value != NULL), 1);
     char *bytes = hex    ? calloc(strlen(hex) / 2 + 1, 1)
                   : text ? strdup(text)
@@ -67,6 +69,7 @@ static bool accepted(const cJSON *json, struct error *err)
     char *bytes = case_bytes(json, &length);
     const char *kind = json_member_text(json, "kind", "");
     bool ok;
+
     if (strcmp(kind, "document") == 0) {
         struct scene *scene = scene_parse(bytes, length, err);
         ok = scene != NULL;
@@ -86,6 +89,7 @@ static void check_file(const char *name)
     char path[300];
     size_t length;
     struct error err = {0};
+
     snprintf(path, sizeof path, "%s/%s", folder, name);
     char *text = text_file_read(path, &length);
     cJSON *json = json_parse(text, length, &err);
@@ -124,6 +128,7 @@ static void invalid_ones_are_refused(void **state)
     (void)state;
     struct dirent **entries;
     int count = scandir(folder, &entries, is_case, alphasort);
+
     assert_int_equal(count, CASES);
     for (int i = 0; i < count; i++) {
         check_file(entries[i]->d_name);
@@ -137,5 +142,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(invalid_ones_are_refused, set_up, tear_down),
     };
+
     return cmocka_run_group_tests_name("invalid", tests, NULL, NULL);
 }

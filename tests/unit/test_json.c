@@ -19,6 +19,7 @@ static void assert_printed(const char *text, const char *expected)
 {
     struct error err = {0};
     cJSON *json = json_parse(text, strlen(text), &err);
+
     if (!json) {
         fail_msg("%s: %s: %s", text, err.place, err.message);
     }
@@ -33,6 +34,7 @@ static void assert_bytes_refused(const char *text, size_t length, enum error_kin
 {
     struct error err = {0};
     cJSON *json = json_parse(text, length, &err);
+
     if (json) {
         fail_msg("accepted: %s", text);
     }
@@ -136,6 +138,7 @@ static void refuses_what_is_not_utf8(void **state)
         "\xf8\x88\x80\x80",
         "\xff",
     };
+
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         char text[16];
         snprintf(text, sizeof text, "\"\xc3\xa9%s\"", bad[i]);
@@ -193,6 +196,7 @@ static char *repeated(const char *head, const char *part, size_t count, const ch
 {
     size_t size = strlen(head) + count * strlen(part) + strlen(tail) + 1;
     char *text = malloc(size), *at = text;
+
     assert_non_null(text);
     at += sprintf(at, "%s", head);
     for (size_t i = 0; i < count; i++) {
@@ -206,6 +210,7 @@ static void assert_limit(char *text, bool ok, const char *fragment)
 {
     struct error err = {0};
     cJSON *json = json_parse(text, strlen(text), &err);
+
     assert_int_equal(json != NULL, ok);
     if (!ok) {
         assert_int_equal(err.kind, ERROR_LIMIT);
@@ -218,6 +223,7 @@ static void assert_limit(char *text, bool ok, const char *fragment)
 static char *object_with(size_t keys)
 {
     char *text = malloc(keys * 16 + 16), *at = text;
+
     assert_non_null(text);
     *at++ = '{';
     for (size_t i = 0; i < keys; i++) {
@@ -231,6 +237,7 @@ static void limits_hold(void **state)
 {
     (void)state;
     char tail[LIMIT_JSON_DEPTH + 2];
+
     memset(tail, ']', sizeof tail);
     tail[LIMIT_JSON_DEPTH] = '\0';
     assert_limit(repeated("", "[", LIMIT_JSON_DEPTH, tail), true, "");
@@ -294,6 +301,7 @@ static void numbers_read_back(void **state)
 {
     (void)state;
     struct random random = {7};
+
     for (int i = 0; i < 20000; i++) {
         double value;
         uint64_t bits = (uint64_t)random_between(&random, 0, 4294967296.0) << 32 |
@@ -338,6 +346,7 @@ static void pretty_print(void **state)
                                  "}\n";
     cJSON *json = json_parse(text, strlen(text), NULL);
     char *printed = json_print(json, true), *compact = json_print(json, false);
+
     assert_string_equal(printed, pretty);
     assert_string_equal(compact, text);
     cJSON_Delete(json);
@@ -358,6 +367,7 @@ static void damaged_texts(void **state)
                                "\"b\":{\"c\":null,\"d\":\"x\\n\"}}";
     struct random random = {3};
     int accepted = 0;
+
     for (int i = 0; i < 20000; i++) {
         char damaged[sizeof text];
         memcpy(damaged, text, sizeof text);
@@ -392,6 +402,7 @@ static void errors_are_utf8(void **state)
     (void)state;
     struct error err = {0};
     char place[ERROR_PLACE_BYTES], name[400] = "";
+
     while (strlen(name) < 390) {
         strcat(name, "\xe2\x98\x83");
     }
@@ -429,5 +440,6 @@ int main(void)
         cmocka_unit_test(damaged_texts),
         cmocka_unit_test(errors_are_utf8),
     };
+
     return cmocka_run_group_tests_name("json", tests, NULL, NULL);
 }

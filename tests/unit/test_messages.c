@@ -19,6 +19,7 @@ static bool read_text(const char *text, struct message *out, struct error *err)
 {
     char *json = json_text(text);
     bool ok = message_read(json, strlen(json), out, err);
+
     free(json);
     return ok;
 }
@@ -27,6 +28,7 @@ static void assert_accepted(const char *text, enum message_kind kind)
 {
     struct error err = {0};
     struct message message;
+
     if (!read_text(text, &message, &err)) {
         fail_msg("%s: %s: %s", text, err.place, err.message);
     }
@@ -42,6 +44,7 @@ static void assert_refused(const char *text, enum error_kind kind, const char *p
 {
     struct error err = {0};
     struct message message;
+
     assert_false(read_text(text, &message, &err));
     if (err.kind != kind || strcmp(err.place, place) != 0 || !strstr(err.message, fragment)) {
         fail_msg("%s: got %s, %s: %s", text, error_kind_name(err.kind), err.place, err.message);
@@ -149,6 +152,7 @@ static void refuses_large_messages(void **state)
     struct error err = {0};
     struct message message;
     char *text = malloc(LIMIT_MESSAGE_BYTES + 1);
+
     assert_non_null(text);
     memset(text, ' ', LIMIT_MESSAGE_BYTES + 1);
     assert_false(message_read(text, LIMIT_MESSAGE_BYTES + 1, &message, &err));
@@ -161,6 +165,7 @@ static void members_have_fallbacks(void **state)
 {
     (void)state;
     cJSON *json = json_text_parse("{'n':2,'t':'x','b':true}", NULL);
+
     assert_float_equal(json_member_number(json, "n", 5), 2, 0);
     assert_float_equal(json_member_number(json, "t", 5), 5, 0);
     assert_string_equal(json_member_text(json, "t", "y"), "x");
@@ -202,6 +207,7 @@ static void frame_header_bytes(void **state)
     (void)state;
     uint8_t bytes[FRAME_HEADER_BYTES];
     struct frame_header back;
+
     memset(bytes, 0xaa, sizeof bytes);
     memset(&back, 0, sizeof back);
     frame_header_pack(&frame, bytes);
@@ -247,6 +253,7 @@ static void describes_both_directions(void **state)
                                          "picked",  "compiling", "notice",  "bye"};
     cJSON *both = messages_describe();
     const cJSON *client = cJSON_GetObjectItem(both, "client");
+
     assert_int_equal(cJSON_GetArraySize(client), MESSAGE_COUNT);
     for (int i = 0; i < MESSAGE_COUNT; i++) {
         assert_string_equal(json_member_text(cJSON_GetArrayItem(client, i), "type", ""),
@@ -279,5 +286,6 @@ int main(void)
         cmocka_unit_test(thumbnail_bytes),
         cmocka_unit_test(describes_both_directions),
     };
+
     return cmocka_run_group_tests_name("messages", tests, NULL, NULL);
 }

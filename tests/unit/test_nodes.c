@@ -183,6 +183,7 @@ static void assert_default_holds(const struct record_type *type, int index)
     struct error err = {0};
     const struct param *param = &type->params[index];
     cJSON *json = param_default(param);
+
     record_init(&record, type);
     if (!record_set(&record, index, json, param->name, &err)) {
         fail_msg("%s: default of %s: %s", type->name, err.place, err.message);
@@ -197,6 +198,7 @@ static void assert_default_holds(const struct record_type *type, int index)
 static void check_table(const struct record_type *type)
 {
     int main = 0, index = 0;
+
     assert_true(isupper((unsigned char)*type->doc));
     assert_int_equal(type->doc[strlen(type->doc) - 1], '.');
     for (const struct param *param = type->params; param->name; param++, index++) {
@@ -249,6 +251,7 @@ static void limits_have_rows(void **state)
     (void)state;
     size_t count;
     const struct limit *limits = limits_table(&count);
+
 #define X(...) +1
     assert_int_equal(count, 0 LIMITS(X));
 #undef X
@@ -281,5 +284,6 @@ int main(void)
         cmocka_unit_test(limits_have_rows),
         cmocka_unit_test(kinds_of_error),
     };
+
     return cmocka_run_group_tests_name("nodes", tests, NULL, NULL);
 }

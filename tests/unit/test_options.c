@@ -23,6 +23,7 @@ static bool read_as(const char *command, char *const *arguments)
 {
     static char *argv[32];
     int argc = 0;
+
     while (arguments[argc]) {
         argv[argc] = arguments[argc];
         argc++;
@@ -45,6 +46,7 @@ static char config_path[] = "/tmp/fieldcast-options-XXXXXX";
 static void write_config(const char *text)
 {
     FILE *file = fopen(config_path, "w");
+
     assert_non_null(file);
     fputs(text, file);
     fclose(file);
@@ -232,6 +234,7 @@ static void other_sources_name_their_place(void **state)
 {
     (void)state;
     char place[64];
+
     setenv("FIELDCAST_PORT", "x", 1);
     assert_false(read_as("serve", no_arguments));
     ASSERT_REFUSED("FIELDCAST_PORT", "'x' is not a number");
@@ -298,6 +301,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(other_sources_name_their_place, set_up, tear_down),
     };
     int failed = fd < 0 ? 1 : cmocka_run_group_tests(tests, NULL, NULL);
+
     close(fd);
     unlink(config_path);
     return failed;

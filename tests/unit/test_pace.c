@@ -121,5 +121,6 @@ int main(void)
         cmocka_unit_test(what_is_out_of_date_changes_nothing),
         cmocka_unit_test(a_careful_picture_has_the_smallest),
     };
+
     return cmocka_run_group_tests_name("pace", tests, NULL, NULL);
 }

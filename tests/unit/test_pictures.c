@@ -86,5 +86,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(drawing_takes_over_what_is_made),
     };
+
     return cmocka_run_group_tests_name("pictures", tests, NULL, NULL);
 }

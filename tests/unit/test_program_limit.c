@@ -34,6 +34,7 @@ static int reset(void **state)
 static int64_t now_ms(void)
 {
     struct timespec t;
+
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (int64_t)t.tv_sec * 1000 + t.tv_nsec / 1000000;
 }
@@ -48,6 +49,7 @@ static bool look(struct program_stuck *out)
 static int bound(void)
 {
     struct program_stuck stuck = {0};
+
     program.spent_ms = INT32_MAX / 2;
     assert_true(look(&stuck));
     assert_false(stuck.still);
@@ -64,6 +66,7 @@ static void pace_of_the_machine(void **state)
 {
     const int usual = LIMIT_COMPILE_FACTOR * (int)program_usual_ms(&program);
     (void)state;
+
     assert_true(usual > CODE_MS);
     assert_int_equal(bound(), usual);
     program_cache_set_pace(&cache, 0.2);
@@ -124,6 +127,7 @@ static void still_is_no_slowness(void **state)
     atomic_bool stop = false;
     pthread_t other;
     (void)state;
+
     be_still();
     assert_true(look(&stuck));
     assert_true(stuck.still);
@@ -142,5 +146,6 @@ int main(void)
         cmocka_unit_test_setup(pace_is_measured, reset),
         cmocka_unit_test_setup(still_is_no_slowness, reset),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -119,5 +119,6 @@ int main(void)
         cmocka_unit_test(used_declarations_are_kept), cmocka_unit_test(used_macros_are_kept),
         cmocka_unit_test(conditions_are_kept),        cmocka_unit_test(comments_follow_their_item),
     };
+
     return cmocka_run_group_tests_name("reach", tests, NULL, NULL);
 }

@@ -21,6 +21,7 @@ static struct error err;
 static struct scene *read_scene(const char *text, size_t length, const char *what)
 {
     struct scene *scene = scene_parse(text, length, &err);
+
     if (!scene) {
         fail_msg("%s: %s: %s", what, err.place, err.message);
     }
@@ -31,6 +32,7 @@ static void apply(struct scene *scene, const char *text, size_t length)
 {
     cJSON *ops = json_parse(text, length, &err), *inverse = NULL;
     char *before = scene_print(scene, false);
+
     if (!ops || !edit_check(ops, &err) || !edit_apply(scene, ops, NULL, &inverse, &err)) {
         fail_msg("%.*s: %s: %s", (int)length, text, err.place, err.message);
     }
@@ -48,6 +50,7 @@ static void read_library(const char *text, size_t length)
     cJSON *json = json_parse(text, length, &err);
     size_t count = 0;
     struct library_entry *entries = library_entries_read(json, &count, &err);
+
     if (!entries) {
         fail_msg("%s: %s", err.place, err.message);
     }
@@ -62,6 +65,7 @@ static void examples_of_the_readme(void **state)
     char *readme = text_file_read("protocol/README.md", NULL);
     struct scene *scene = NULL;
     int scenes = 0, edits = 0;
+
     for (char *block = strstr(readme, fence); block; block = strstr(block, fence)) {
         const char *kind = block + strlen(fence), *start = strchr(kind, '\n') + 1;
         char *end = strstr(start, "\n```");
@@ -97,6 +101,7 @@ static void example_scenes(void **state)
     DIR *directory = opendir(folder);
     struct dirent *entry;
     int count = 0;
+
     assert_non_null(directory);
     while ((entry = readdir(directory))) {
         char path[300];
@@ -120,5 +125,6 @@ int main(void)
         cmocka_unit_test(examples_of_the_readme),
         cmocka_unit_test(example_scenes),
     };
+
     return cmocka_run_group_tests_name("readme", tests, NULL, NULL);
 }

@@ -68,6 +68,7 @@ static int tear_down(void **state)
 static bool read_text(const char *text, struct error *err)
 {
     cJSON *json = json_text_parse(text, err);
+
     assert_non_null(json);
     bool ok = record_read(&record, json, "/thing", err);
     cJSON_Delete(json);
@@ -78,6 +79,7 @@ static void assert_reads(const char *text, const char *expected)
 {
     struct error err = {0};
     cJSON *json = cJSON_CreateObject();
+
     tear_down(NULL);
     set_up(NULL);
     if (!read_text(text, &err)) {
@@ -93,6 +95,7 @@ static void assert_reads(const char *text, const char *expected)
 static void assert_refuses(const char *text, const char *place, const char *message)
 {
     struct error err = {0};
+
     assert_false(read_text(text, &err));
     assert_int_equal(err.kind, ERROR_INVALID);
     assert_string_equal(err.place, place);
@@ -187,6 +190,7 @@ static void long_texts(void **state)
     (void)state;
     struct error err = {0};
     char text[300];
+
     memset(text, 'x', sizeof text);
     text[201] = '\0';
     cJSON *json = cJSON_CreateString(text);
@@ -297,6 +301,7 @@ static void names_of_declared_rows(void **state)
     static const char *const wrong[] = {"", "1a", "a b", "a-b", "a__b", "gl_x", "\xc3\xa9", "a."};
     struct error err = {0};
     char text[200];
+
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
         snprintf(text, sizeof text, ROWS("{'name':'%s','type':'int'}"), good[i]);
         assert_true(read_text(text, &err));
@@ -318,6 +323,7 @@ static void definitions_give_defaults_and_ranges(void **state)
     struct error err = {0};
     struct declared_params *declared = declared_params_create("thing", &type, text);
     const struct param *rows = declared->type.params + declared->first_declared;
+
     assert_int_equal(declared->first_declared, record_type_count(&type));
     assert_string_equal(declared->type.name, "thing");
     assert_ptr_equal(declared->type.params[0].name, params[0].name);
@@ -344,6 +350,7 @@ static void limits_of_values(void **state)
     (void)state;
     struct error err = {0};
     static char code[LIMIT_CODE_BYTES + 2];
+
     memset(code, ' ', LIMIT_CODE_BYTES + 1);
     cJSON *text = cJSON_CreateString(code), *points = cJSON_CreateArray();
     cJSON *rows = cJSON_CreateArray();
@@ -385,6 +392,7 @@ static void null_restores_and_failure_keeps(void **state)
     (void)state;
     struct error err = {0};
     cJSON *two = cJSON_CreateNumber(2), *much = cJSON_CreateNumber(99), *null = cJSON_CreateNull();
+
     assert_true(record_set(&record, 0, two, "", &err));
     assert_false(record_set(&record, 0, much, "", &err));
     assert_float_equal(record_number(&record, "size"), 2, 0);
@@ -400,6 +408,7 @@ static void copies_share_nothing(void **state)
 {
     (void)state;
     struct record copy;
+
     assert_true(read_text("{'title':'one','place':[1,2,3]}", NULL));
     record_copy(&copy, &record);
     assert_true(read_text("{'title':'two','place':[4,5,6]}", NULL));
@@ -435,6 +444,7 @@ static void types_are_described(void **state)
                "'doc':'O.'}",
         [18] = "{'name':'rows','type':'rows','default':[],'doc':'R.'}",
     };
+
     for (size_t i = 0; i < sizeof expected / sizeof expected[0]; i++) {
         if (expected[i]) {
             cJSON *row = param_describe(&params[i]);
@@ -451,6 +461,7 @@ static void values_survive(void **state)
 {
     (void)state;
     struct random random = {11};
+
     for (int round = 0; round < 2000; round++) {
         const struct record_type *table =
             round % 3 == 0 ? &type
@@ -477,6 +488,7 @@ static void names_are_checked(void **state)
 {
     (void)state;
     char name[80];
+
     memset(name, 'a', sizeof name);
     name[64] = '\0';
     assert_true(record_name_valid(name));
@@ -507,5 +519,6 @@ int main(void)
         cmocka_unit_test(values_survive),
         cmocka_unit_test(names_are_checked),
     };
+
     return cmocka_run_group_tests_name("record", tests, NULL, NULL);
 }

@@ -45,6 +45,7 @@ static bool in_glsl(const char *name)
 static bool has_golden(const char *type)
 {
     char path[256];
+
     snprintf(path, sizeof path, "tests/golden/nodes/%s/expected.png", type);
     return access(path, R_OK) == 0;
 }
@@ -52,6 +53,7 @@ static bool has_golden(const char *type)
 static bool is_on_page(const char *page, const char *type)
 {
     char heading[128];
+
     snprintf(heading, sizeof heading, "\n### %s\n", type);
     return strstr(page, heading) != NULL;
 }
@@ -61,6 +63,7 @@ static void every_row_is_everywhere(void **state)
     (void)state;
     char *page = reference_markdown();
     const struct node_type *type;
+
     for (size_t i = 0; (type = node_type_at(i)); i++) {
         bool own =
             type->kind != KIND_MODEL && type->kind != KIND_CODE && type->kind != KIND_EQUATION;
@@ -80,6 +83,7 @@ static void the_page_in_the_repository_is_up_to_date(void **state)
     size_t length;
     char *stored = text_file_read("protocol/REFERENCE.md", &length);
     char *page = reference_markdown();
+
     if (strcmp(stored, page) != 0) {
         fail_msg("protocol/REFERENCE.md is not what the tables say: make docs writes it");
     }
@@ -93,5 +97,6 @@ int main(void)
         cmocka_unit_test(every_row_is_everywhere),
         cmocka_unit_test(the_page_in_the_repository_is_up_to_date),
     };
+
     return cmocka_run_group_tests_name("reference", tests, NULL, NULL);
 }

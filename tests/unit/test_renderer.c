@@ -560,6 +560,7 @@ static void cancelled_jobs_leave_no_trace(void **state)
 static void odd_sizes_are_drawn(void **state)
 {
     static const int sizes[][2] = {{1, 1}, {1, 300}, {LIMIT_IMAGE_SIDE, 1}, {257, 3}};
+
     static const struct {
         struct job_desc desc;
         const char *place;
@@ -744,6 +745,7 @@ static void code_beyond_compilers(void **state)
     struct code *alone =
         code_compile(&(struct code_source){CODE_DISTANCE, code, nothing, false}, NULL);
     const int most = LIMIT_COMPILED_CODE / code_size(alone);
+
     for (int more = 0; more < 2; more++) {
         struct scene *scene = shapes_with_code(code, most + more);
         struct field *field = field_compile(scene, NULL);
@@ -857,6 +859,7 @@ int main(void)
         cmocka_unit_test(code_beyond_compilers),
         cmocka_unit_test(gpu_asked_for),
     };
+
     /* What only programs do. */
     const struct CMUnitTest programs[] = {
         cmocka_unit_test(old_picture_while_compiling),

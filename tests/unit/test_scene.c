@@ -24,6 +24,7 @@ static void assert_prints(const char *text, const char *expected)
 {
     struct scene *scene = json_text_valid_scene(text);
     char *printed = scene_print(scene, false);
+
     json_text_assert_equal(printed, expected);
     free(printed);
     scene_destroy(scene);
@@ -165,6 +166,7 @@ static void order_of_members_does_not_matter(void **state)
 {
     (void)state;
     cJSON *json = json_text_parse(EVERYTHING, &err), *backwards = cJSON_CreateObject();
+
     while (json->child) {
         cJSON *last = cJSON_DetachItemViaPointer(json, json->child->prev);
         cJSON_AddItemToObject(backwards, last->string, last);
@@ -196,6 +198,7 @@ static void models_in_a_circle(void **state)
     (void)state;
     static const char root[] = ",'root':{'type':'union'}";
     char text[400];
+
     snprintf(text, sizeof text, DOC("'models':{" MODEL("a", "a") "}%s"), root);
     assert_refused(text, ERROR_CONFLICT, "/models");
     assert_string_equal(err.message, "models in a circle: /models/a -> /models/a");
@@ -216,6 +219,7 @@ static char *nested(size_t levels)
 {
     static const char head[] = "{'format':'fieldcast/1','root':";
     char *text = malloc(levels * 40 + 100), *at = text;
+
     assert_non_null(text);
     at += sprintf(at, "%s", head);
     for (size_t i = 1; i < levels; i++) {
@@ -233,6 +237,7 @@ static char *nested(size_t levels)
 static char *wide(size_t parents, size_t children)
 {
     char *text = malloc(parents * (children * 20 + 60) + 100), *at = text;
+
     assert_non_null(text);
     at += sprintf(at, "{'format':'fieldcast/1','root':{'type':'union','children':[");
     for (size_t i = 0; i < parents; i++) {
@@ -249,6 +254,7 @@ static char *wide(size_t parents, size_t children)
 static void assert_limit(char *text, size_t nodes, const char *message)
 {
     struct scene *scene = json_text_scene(text, &err);
+
     free(text);
     if (message) {
         assert_null(scene);
@@ -277,6 +283,7 @@ static char *listed(const char *list, size_t count, const char *value)
 {
     bool array = strcmp(list, "lights") == 0 || strcmp(list, "volumes") == 0;
     char *text = malloc(count * (strlen(value) + 20) + 200), *at = text;
+
     assert_non_null(text);
     at += sprintf(at, "{'format':'fieldcast/1','%s':%c", list, array ? '[' : '{');
     for (size_t i = 0; i < count; i++) {
@@ -317,6 +324,7 @@ static char *beside(char *document, size_t children)
     static const char root[] = "'root':";
     char *tree = strstr(document, root) + strlen(root);
     char *text = malloc(strlen(tree) + children * 20 + 100), *at = text;
+
     assert_non_null(text);
     at += sprintf(at, "{'format':'fieldcast/1','root':{'type':'union','children':[");
     for (size_t i = 0; i < children; i++) {
@@ -343,6 +351,7 @@ static void long_places_keep_their_end(void **state)
     static const char tail[] = "/children/0/params/radius";
     char *text = nested(30), *last = strstr(text, "{'type':'group'}");
     char *bad = malloc(strlen(text) + 100);
+
     assert_non_null(bad);
     sprintf(bad, "%.*s{'type':'sphere','params':{'radius':-1}}%s", (int)(last - text), text,
             last + strlen("{'type':'group'}"));
@@ -361,6 +370,7 @@ struct walked {
 static void note(void *data, const struct node *node, size_t index)
 {
     struct walked *walked = data;
+
     assert_int_equal(index, walked->count);
     walked->ids[walked->count++] = node->id;
 }
@@ -374,6 +384,7 @@ static void tree_questions(void **state)
             "'children':[{'id':'y','type':'box'},{'id':'z','type':'box','material':'b',"
             "'visible':false}]},{'id':'w','type':'box'}]}"));
     struct walked walked = {.count = 0};
+
     scene_walk(scene, note, &walked);
     assert_int_equal(walked.count, 5);
     assert_string_equal(walked.ids[2], "y");
@@ -394,6 +405,7 @@ static void empty_scene(void **state)
     (void)state;
     struct scene *scene = scene_create_empty();
     char *text = scene_print(scene, false);
+
     json_text_assert_equal(text, ROOT(""));
     free(text);
     scene_destroy(scene);
@@ -432,6 +444,7 @@ static bool reads_damaged(struct random *random, const char *whole)
 {
     char *text = memory_text(whole);
     const size_t length = strlen(text);
+
     random_damage(random, text, length);
     err = (struct error){0};
     struct scene *scene = scene_parse(text, length, &err);
@@ -456,6 +469,7 @@ static void damaged_documents(void **state)
     (void)state;
     struct random random = {9};
     int accepted = 0;
+
     for (int i = 0; i < DAMAGED / EACH; i++) {
         struct scene *scene = random_document(&random, 1 + random_below(&random, 6));
         char *text = scene_print(scene, false);
@@ -487,5 +501,6 @@ int main(void)
         cmocka_unit_test(random_documents_round_trip),
         cmocka_unit_test(damaged_documents),
     };
+
     return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
 }

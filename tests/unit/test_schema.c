@@ -36,6 +36,7 @@ static int tear_down(void **state)
 static const cJSON *at(const cJSON *json, const char *path)
 {
     char copy[200], *save = NULL;
+
     snprintf(copy, sizeof copy, "%s", path);
     for (char *name = strtok_r(copy, "/", &save); name; name = strtok_r(NULL, "/", &save)) {
         const cJSON *next = cJSON_GetObjectItemCaseSensitive(json, name);
@@ -50,6 +51,7 @@ static const cJSON *at(const cJSON *json, const char *path)
 static void check_references(const cJSON *json)
 {
     const char *reference = json_member_text(json, "$ref", NULL);
+
     if (reference) {
         assert_int_equal(strncmp(reference, "#/", 2), 0);
         at(schema, reference + 2);
@@ -78,6 +80,7 @@ static void is_a_schema(void **state)
 static const cJSON *rule_for(const char *type)
 {
     const cJSON *rule;
+
     cJSON_ArrayForEach(rule, at(schema, "$defs/node/allOf"))
     {
         if (strcmp(at(rule, "if/properties/type/const")->valuestring, type) == 0) {
@@ -118,6 +121,7 @@ static void what_documents_declare(void **state)
 {
     (void)state;
     static const char *const lists[] = {"primitives", "shaders", "materials", "models"};
+
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
         const cJSON *list = at(at(schema, "properties"), lists[i]);
         assert_true(at(list, "maxProperties")->valuedouble > 1);
@@ -180,6 +184,7 @@ static void assert_condition(const struct record_type *type, const struct param 
 {
     char name[64] = "";
     const char *at = param->when + strcspn(param->when, "!=");
+
     memcpy(name, param->when, (size_t)(at - param->when));
     at += *at == '!';
     assert_int_equal(*at, '=');
@@ -201,6 +206,7 @@ static void conditions_are_described(void **state)
     const struct record_type *const tables[] = {light_types, shader_types, volume_types};
     const struct record_type *const records[] = {&camera_type, &environment_type, &render_type};
     int found = 0;
+
     for (size_t i = 0; i < 3; i++) {
         for (const struct record_type *type = tables[i]; type->name; type++) {
             for (const struct param *param = type->params; param->name; param++) {
@@ -233,6 +239,7 @@ static void conditions_are_described(void **state)
 static bool is_converted(const char *word)
 {
     static const char *const words[] = {"gloss", "roughness", "opacity", "transmission"};
+
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         if (strcmp(words[i], word) == 0) {
             return true;
@@ -245,6 +252,7 @@ static bool is_converted(const char *word)
 static void assert_meaning(const struct record_type *shader, const struct param *param)
 {
     int others = 0;
+
     for (const struct record_type *type = shader_types; type->name; type++) {
         for (const struct param *row = type->params; row->name; row++) {
             if (row != param && row->means && strcmp(row->means, param->means) == 0) {
@@ -260,6 +268,7 @@ static void meanings_are_described(void **state)
 {
     (void)state;
     int found = 0;
+
     for (const struct record_type *type = shader_types; type->name; type++) {
         for (const struct param *param = type->params; param->name; param++) {
             if (param->means) {
@@ -277,6 +286,7 @@ static void words_for_zero_are_described(void **state)
     (void)state;
     const struct record_type *const records[] = {&camera_type, &environment_type, &render_type};
     int found = 0;
+
     for (size_t i = 0; i < 3; i++) {
         for (const struct param *param = records[i]->params; param->name; param++) {
             if (param->zero) {
@@ -295,6 +305,7 @@ static void outputs_levels_stages(void **state)
 {
     (void)state;
     const cJSON *registry = at(schema, "x-fieldcast");
+
     assert_int_equal(cJSON_GetArraySize(at(registry, "outputs")), AOV_COUNT);
     assert_string_equal(json_member_text(at(registry, "outputs")->child, "name", ""), "color");
     assert_int_equal(cJSON_GetArraySize(at(registry, "levels")), QUALITY_COUNT);
@@ -309,6 +320,7 @@ static void registry_is_complete(void **state)
     const cJSON *registry = at(schema, "x-fieldcast");
     static const char *const members[] = {"type",  "group",    "exactness", "doc",
                                           "words", "children", "params"};
+
     assert_int_equal(cJSON_GetArraySize(at(registry, "nodes")), (int)node_type_count());
     for (size_t i = 0; i < node_type_count(); i++) {
         const cJSON *row = cJSON_GetArrayItem(at(registry, "nodes"), (int)i);
@@ -359,5 +371,6 @@ int main(void)
         cmocka_unit_test(meanings_are_described),
         cmocka_unit_test(words_for_zero_are_described),
     };
+
     return cmocka_run_group_tests_name("schema", tests, NULL, NULL);
 }

@@ -136,5 +136,6 @@ int main(void)
         cmocka_unit_test(what_is_kept_is_believed),
         cmocka_unit_test(what_is_not_of_this_device_is_not),
     };
+
     return cmocka_run_group_tests_name("stage trial", tests, start, end);
 }

@@ -214,5 +214,6 @@ int main(void)
         cmocka_unit_test(heavy_ones_are_bounded),
         cmocka_unit_test(what_waits_is_dropped_at_the_end),
     };
+
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,6 +33,7 @@ static void edit(struct resident *resident, const char *text)
 {
     struct error err = {0};
     cJSON *ops = json_text_parse(text, NULL);
+
     if (!resident_edit(resident, ops, resident_revision(resident) + 1, &err)) {
         fail_msg("%s: %s", err.place, err.message);
     }
@@ -43,6 +44,7 @@ static void numbers_are_tried_again(void **state)
 {
     struct resident *resident = resident_create(renderer, drawing_parse(document), 1);
     (void)state;
+
     finish_trials();
     assert_int_equal(resident_warning(resident).error.kind, ERROR_NONE);
 
@@ -65,6 +67,7 @@ static void other_numbers_are_not(void **state)
 {
     struct resident *resident = resident_create(renderer, drawing_parse(document), 1);
     (void)state;
+
     finish_trials();
     edit(resident, "[{'op':'set','at':'/nodes/b/params/radius','value':0.7}]");
     edit(resident, "[{'op':'set','at':'/nodes/a/transform/translation','value':[0,1,0]}]");
@@ -93,5 +96,6 @@ int main(void)
         cmocka_unit_test(numbers_are_tried_again),
         cmocka_unit_test(other_numbers_are_not),
     };
+
     return cmocka_run_group_tests(tests, start, stop);
 }

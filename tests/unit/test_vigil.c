@@ -153,5 +153,6 @@ int main(void)
         cmocka_unit_test(processes_are_at_work_asleep_or_stopped),
         cmocka_unit_test(who_asks_does_not_count),
     };
+
     return cmocka_run_group_tests_name("vigil", tests, NULL, NULL);
 }

@@ -517,6 +517,7 @@ static void expect_frame(uint32_t job, uint64_t revision)
 static void large_documents(void **state)
 {
     static const char *const large[] = {"a", "b", "c", "d"};
+
     enum { LARGE = sizeof large / sizeof large[0] };
     char *document = large_document(false);
     int shown = 0;
@@ -549,6 +550,7 @@ static void large_documents(void **state)
 static void large_edits(void **state)
 {
     static const char *const large[] = {"a", "b", "c", "d"};
+
     enum { LARGE = sizeof large / sizeof large[0] };
     char *document = large_document(true);
     int shown = 0;
