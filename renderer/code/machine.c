@@ -112,6 +112,7 @@ static void multiply_matrices(const struct step *s, double *out, const double *a
 {
     double product[COMPONENTS_MAX];
     int rows = s->n, inner = s->c, columns = s->extra;
+
     for (int column = 0; column < columns; column++) {
         for (int row = 0; row < rows; row++) {
             double sum = 0;
@@ -142,6 +143,7 @@ static void move(const struct step *s, double *out, const double *from)
 static void scatter(const struct step *s, double *out, const double *from)
 {
     double copy[4];
+
     memcpy(copy, from, s->n * sizeof *out);
     for (int i = 0; i < s->n; i++) {
         out[s->extra >> (2 * i) & 3] = copy[i];
@@ -214,6 +216,7 @@ static void call(const struct step *s, double *frame)
     const double *a = frame + s->a, *b = frame + s->b, *c = frame + s->c;
     int step_a = !(s->flags & SPREAD_A), step_b = !(s->flags & SPREAD_B),
         step_c = !(s->flags & SPREAD_C);
+
     switch ((enum step_kind)s->kind) {
     case STEP_ONE:
         EACH(builtin->one(A));
@@ -221,8 +224,11 @@ static void call(const struct step *s, double *frame)
         EACH(builtin->two(A, B));
     case STEP_THREE:
         EACH(builtin->three(A, B, C));
-    default:
+    case STEP_TOGETHER:
         builtin->whole(out, (const double *const[]){a, b, c}, s->n);
+        break;
+    default:
+        assert(!"a step that computes");
     }
 }
 
@@ -232,6 +238,7 @@ static void compute(const struct step *s, double *frame)
     double *out = frame + s->out;
     const double *a = frame + s->a, *b = frame + s->b;
     int step_a = !(s->flags & SPREAD_A), step_b = !(s->flags & SPREAD_B);
+
     switch ((enum step_kind)s->kind) {
     case STEP_MOVE:
         move(s, out, a);
@@ -269,12 +276,6 @@ static void compute(const struct step *s, double *frame)
     case STEP_PRODUCT:
         multiply_matrices(s, out, a, b);
         break;
-    case STEP_ONE:
-    case STEP_TWO:
-    case STEP_THREE:
-    case STEP_TOGETHER:
-        call(s, frame);
-        break;
     case STEP_INDEX:
         out[0] = index_of(a[0], s->c) * s->n + (s->b == MACHINE_NOWHERE ? 0 : b[0]);
         break;
@@ -284,7 +285,7 @@ static void compute(const struct step *s, double *frame)
         out += (int)b[0];
         EACH(A);
     default:
-        assert(!"a step that computes");
+        call(s, frame);
     }
 }
 
@@ -294,6 +295,7 @@ void machine_run(const struct machine_code *code, size_t first, double *frame,
     const struct step *returns[LIMIT_CODE_DEPTH + 1];
     const struct step *s = code->steps + first;
     int calls = 0;
+
     for (;;) {
         switch ((enum step_kind)s->kind) {
         case STEP_JUMP:

@@ -8,6 +8,7 @@ import path from 'node:path';
 
 import { checkCircles, checkDrawing, checkImports, checkIncludes, checkUnused } from './arrows.mjs';
 import { checkCommits } from './commits.mjs';
+import { missingBlank } from './declarations.mjs';
 import { OLD_GLSL_NAMES, OLD_NAMES } from './names.mjs';
 import { checkTidy } from './tidy.mjs';
 
@@ -111,9 +112,14 @@ function checkFunctionsC(files) {
         report('tests/lint/lint.mjs', 1, 'tool', 'universal-ctags is missing');
         return;
     }
+    const texts = new Map(own.map((file) => [file, fs.readFileSync(path.join(root, file), 'utf8').split('\n')]));
     for (const line of tags.stdout.split('\n').filter((text) => text.startsWith('{'))) {
         const tag = JSON.parse(line);
+        const at = missingBlank(texts.get(tag.path), tag.line - 1, tag.end - 1);
         checkLength(tag.path, tag.line, tag.name, tag.end - tag.line + 1);
+        if (at >= 0) {
+            report(tag.path, at + 1, 'declared', 'a blank line follows the declarations that a function begins with');
+        }
     }
 }
 

@@ -80,6 +80,8 @@ const BREAKS = [
     ['word', 'renderer/draw/draw.h', `${C}/* TO${'DO'} */\n`],
     ['word', 'renderer/draw/draw.c', `${C}#if 0\n#endif\n`],
     ['sizeof', 'server/live/room.c', `${C}static int a[3];\n\nint f(void)\n{\n    return sizeof(a);\n}\n`],
+    ['declared', 'server/live/room.c', `${C}int f(int b)\n{\n    int a = 2 *\n            b;\n    return a;\n}\n`],
+    ['declared', 'server/live/room.c', `${C}void f(void **state)\n{\n    struct room *room;\n    (void)state;\n    room = 0;\n}\n`],
     ['escape', 'tests/unit/test_scene.c', `${C}const char *a =\n${'    "{\\"type\\":1}"\n'.repeat(4)};\n`],
     ['test', 'tests/unit/test_json.c', `${C}static void test_numbers(void **state)\n{\n    (void)state;\n}\n`],
     ['name', 'server/live/room.c', `${C}#include "fallback.h"\n\nvoid f(void)\n{\n    say_bye(0);\n}\n`],
