@@ -55,9 +55,11 @@ struct param {
     const char *const *choices; /* PARAM_ENUM: NULL-terminated */
     bool main;                  /* among the two that a compact view shows */
     const char *group;          /* the heading that forms put it under; NULL: none */
-    const char *when;           /* it matters only then: "type=sky", "opacity!=1"; NULL: always */
-    const char *zero;           /* what forms show for 0: "auto"; NULL: 0 is a number like others */
-    const char *means;          /* what it shares with rows of other shaders; NULL: nothing */
+    /* It matters only then: "type=sky", "opacity!=1", "equation~a" (that equation has the letter
+     * a); NULL: always. */
+    const char *when;
+    const char *zero;  /* what forms show for 0: "auto"; NULL: 0 is a number like others */
+    const char *means; /* what it shares with rows of other shaders; NULL: nothing */
     /* Where an editor lets a hand change the value, in the node's own space; NULL: nowhere. One
      * point "X, Y, Z" for all of the value, or one for each component, with ";" between them. X, Y
      * and Z are expressions of numbers, + - * / ^ ( ), sqrt, sin, cos, pi and numbers of the same

@@ -76,9 +76,10 @@ const struct node_type node_fractals[] = {
          .handle = "radius, 0, 0", .doc = "Of the ball."},
         {"thickness", PARAM_FLOAT, SIZE, .def = {0.03}, .when = "mode=sheet",
          .doc = "Of the sheet."},
-        {"a", LETTER, .main = true, .doc = "The letter a in the equation."},
-        {"b", LETTER, .doc = "The letter b."}, {"c", LETTER, .doc = "The letter c."},
-        {"d", LETTER, .doc = "The letter d."})},
+        {"a", LETTER, .when = "equation~a", .main = true, .doc = "The letter a in the equation."},
+        {"b", LETTER, .when = "equation~b", .doc = "The letter b."},
+        {"c", LETTER, .when = "equation~c", .doc = "The letter c."},
+        {"d", LETTER, .when = "equation~d", .doc = "The letter d."})},
      .number = 75, .group = GROUP_PRIMITIVE, .kind = KIND_EQUATION, .exactness = BOUND,
      .lipschitz = 0, .glsl = "", .words = "equation function algebraic surface polynomial "
      "isosurface maths formula quadric",

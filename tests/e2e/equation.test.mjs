@@ -72,6 +72,7 @@ test('a letter is a number, and the picture follows it', async () => {
     await pictureChanged(page, nothing, 'the ball');
     await settled(page);
     const ball = await stillPixels(page);
+    assert.equal(await field(page, 'b').count(), 0, 'a letter that the equation lacks is not offered');
     await field(page, 'a').fill('0.4');
     await page.keyboard.press('Enter');
     await pictureChanged(page, ball, 'the smaller ball');

@@ -183,17 +183,23 @@ static void assert_described(const cJSON *rows, const struct record_type *type)
 static void assert_condition(const struct record_type *type, const struct param *param)
 {
     char name[64] = "";
-    const char *at = param->when + strcspn(param->when, "!=");
+    const char *at = param->when + strcspn(param->when, "!=~");
 
     memcpy(name, param->when, (size_t)(at - param->when));
-    at += *at == '!';
-    assert_int_equal(*at, '=');
+    const char kind = *at;
+    at += kind == '!';
+    assert_int_equal(*at, kind == '~' ? '~' : '=');
     const struct param *other = type->params;
     while (other->name && strcmp(other->name, name) != 0) {
         other++;
     }
     assert_non_null(other->name);
     assert_ptr_not_equal(other, param);
+    if (kind == '~') {
+        assert_int_equal(other->type, PARAM_EQUATION);
+        assert_string_equal(at + 1, param->name);
+        return;
+    }
     cJSON *value = other->type == PARAM_ENUM ? cJSON_CreateString(at + 1) : cJSON_Parse(at + 1);
     double read[4];
     assert_true(param_read(other, value, read, "", NULL));

@@ -37,6 +37,8 @@ const SCHEMA = readSchema({
         { name: "floor", type: "bool", default: false, group: "floor" },
         { name: "floor_color", type: "color", group: "floor", when: "floor=true" },
         { name: "odd", type: "float", when: "nothing like it" },
+        { name: "shape", type: "equation", group: "shape" },
+        { name: "a", type: "float", group: "shape", when: "shape~a" },
     ],
     outputs: [
         { name: "color", doc: "What is seen.", channels: 4, picture: true },
@@ -53,6 +55,7 @@ test("rows stand under their headings, those without first", () => {
         ["", 4],
         ["fog", 3],
         ["floor", 2],
+        ["shape", 2],
     ]);
     expect(grouped([])).toEqual([]);
 });
@@ -62,7 +65,7 @@ test("a row matters where its condition holds, and what that hangs on matters", 
         SCHEMA.environment
             .filter((param) => matters(SCHEMA.environment, values, param))
             .map(({ name }) => name);
-    const always = ["fog", "intensity", "floor", "odd"];
+    const always = ["fog", "intensity", "floor", "odd", "shape"];
     expect(shown({})).toEqual(["type", "zenith", ...always]);
     expect(shown({ type: "image" })).toEqual(["type", ...always]);
     expect(shown({ fog: 0.1, fog_height: 2 })).toContain("fog_base");
@@ -71,17 +74,23 @@ test("a row matters where its condition holds, and what that hangs on matters", 
     expect(findParam(SCHEMA.environment, "fog_base")?.when).toEqual({
         name: "fog_height",
         value: 0,
-        not: true,
+        test: "!=",
     });
+    expect(
+        ["", "x = tan(x)", "A*x", "2a*x = 1", "x^(1/a)"].map((shape) =>
+            shown({ shape }).includes("a"),
+        ),
+    ).toEqual([false, false, false, true, true]);
 });
 
 test("conditions are told in words", () => {
     const told = (name: string) => conditionOf(findParam(SCHEMA.environment, name) as Param);
-    expect(["type", "zenith", "fog_base", "floor_color"].map(told)).toEqual([
+    expect(["type", "zenith", "fog_base", "floor_color", "a"].map(told)).toEqual([
         "",
         "type is sky",
         "fog height is not 0",
         "floor is yes",
+        "shape has a",
     ]);
 });
 

@@ -59,7 +59,8 @@ export interface Values {
 export interface Condition {
     readonly name: string;
     readonly value: Value;
-    readonly not: boolean;
+    /* It is this value, is another, or is an equation that has this letter. */
+    readonly test: "=" | "!=" | "~";
 }
 
 export interface Param {
@@ -242,15 +243,15 @@ export function numberParam(name: string, part: Partial<Param> = {}): Param {
 
 /* "type=sky", "opacity!=1": a word, or a number or a truth as JSON writes it. */
 function readCondition(text: string): Condition | null {
-    const found = /^(\w+)(!?)=(.+)$/.exec(text);
-    const [, name = "", not, word = ""] = found ?? [];
+    const found = /^(\w+)(=|!=|~)(.+)$/.exec(text);
+    const [, name = "", test, word = ""] = found ?? [];
     if (found === null) {
         return null;
     }
     const number = Number(word);
     const truth = word === "true" || word === "false";
     const value = truth ? word === "true" : Number.isNaN(number) ? word : number;
-    return { name, value, not: not === "!" };
+    return { name, value, test: test as Condition["test"] };
 }
 
 function readParam(json: JsonObject): Param {
@@ -394,16 +395,23 @@ export function valueIn(values: Values, param: Param): Value {
     return values[param.name] ?? param.default;
 }
 
+function holds({ test, value }: Condition, given: Value): boolean {
+    if (test === "~") {
+        const words: readonly string[] = String(given).match(/[A-Za-z_]\w*/g) ?? [];
+        return words.includes(String(value));
+    }
+    return (given === value) === (test === "=");
+}
+
 /* Does it make a difference what stands at `param`? What it hangs on must matter itself. */
 export function matters(params: readonly Param[], values: Values, param: Param): boolean {
     if (param.when === null) {
         return true;
     }
-    const { name, value, not } = param.when;
-    const other = findParam(params, name);
+    const other = findParam(params, param.when.name);
     return (
         other === null ||
-        ((valueIn(values, other) === value) !== not && matters(params, values, other))
+        (holds(param.when, valueIn(values, other)) && matters(params, values, other))
     );
 }
 

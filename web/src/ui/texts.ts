@@ -270,6 +270,7 @@ const texts = {
     "reference.when": "Matters where",
     "reference.is": "{name} is {value}",
     "reference.isNot": "{name} is not {value}",
+    "reference.has": "{name} has {value}",
     "reference.direction": "not all 0",
     "type.float": "number",
     "type.int": "whole number",

@@ -121,12 +121,14 @@ export function rangeOf(param: Param): string {
     return parts.filter(Boolean).join(", ");
 }
 
+const TESTS = { "=": "reference.is", "!=": "reference.isNot", "~": "reference.has" } as const;
+
 /* When a row matters: "type is sky"; "" where it always does. */
 export function conditionOf({ when }: Param): string {
     if (when === null) {
         return "";
     }
-    const { name, value, not } = when;
+    const { name, value, test } = when;
     const what = typeof value === "boolean" ? t(`reference.${value ? "yes" : "no"}`) : value;
-    return t(not ? "reference.isNot" : "reference.is", { name: words(name), value: String(what) });
+    return t(TESTS[test], { name: words(name), value: String(what) });
 }
