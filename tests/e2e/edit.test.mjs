@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Looking around, changing numbers, isolating: the picture follows, nothing is compiled, undo is exact.
+// Looking around, changing numbers, isolating: the picture follows, undo is exact.
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import {

@@ -15,7 +15,7 @@ const { chromium } = require('playwright-core');
 const PATIENCE = { idleSeconds: Number(process.env.E2E_IDLE_SECONDS ?? 90), busySeconds: 400 };
 
 /** Without windows of its own it takes half of what the whole browser takes. It cannot lock a pointer. */
-const SHELL = '/usr/bin/chromium-headless-shell';
+export const SHELL = '/usr/bin/chromium-headless-shell';
 const WHOLE = '/usr/bin/chromium';
 const FLAGS = [
     '--no-sandbox',

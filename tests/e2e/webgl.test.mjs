@@ -9,6 +9,7 @@ import { after, before, test } from 'node:test';
 import { makeDirectory, program, removeDirectory } from '../support/daemon.mjs';
 import { EXAMPLES, GOLDEN } from '../support/counts.mjs';
 import { decodePng } from '../support/png.mjs';
+import { SHELL } from './stage.mjs';
 
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
 const { chromium } = require('playwright-core');
@@ -25,7 +26,7 @@ let directory;
 
 before(async () => {
     directory = makeDirectory();
-    browser = await chromium.launch({ executablePath: '/usr/bin/chromium-headless-shell', args: FLAGS, timeout: 0 });
+    browser = await chromium.launch({ executablePath: SHELL, args: FLAGS, timeout: 0 });
 });
 
 after(async () => {
