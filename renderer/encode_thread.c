@@ -41,8 +41,7 @@ struct work {
 
 struct encode_thread {
     pthread_t threads[LANES];
-    int started; /* of the threads; */
-    int ready;   /* those that have the priority that they are to have */
+    int started; /* of the threads */
     pthread_mutex_t lock;
     pthread_cond_t change;
     struct work *works, *done; /* in order of arrival */
@@ -182,8 +181,6 @@ static void encode(struct encode_thread *encode_thread, struct work *work)
 static void serve(struct encode_thread *encode_thread, enum lane lane)
 {
     pthread_mutex_lock(&encode_thread->lock);
-    encode_thread->ready++;
-    pthread_cond_broadcast(&encode_thread->change);
     while (!encode_thread->stop) {
         struct work *work = find_next(encode_thread, lane);
 
@@ -204,29 +201,25 @@ static void *serve_urgent(void *data)
 
 static void *serve_patient(void *data)
 {
-    patient_thread();
     serve(data, LANE_PATIENT);
     return NULL;
 }
 
 /* --- for the owner --- */
 
-/* Returns when the threads have their priorities, which may not be changed later (confine.h). */
 static bool start_threads(struct encode_thread *encode_thread)
 {
-    void *(*const mains[LANES])(void *) = {serve_urgent, serve_patient};
+    pthread_t *threads = encode_thread->threads;
 
-    while (encode_thread->started < LANES &&
-           pthread_create(&encode_thread->threads[encode_thread->started], NULL,
-                          mains[encode_thread->started], encode_thread) == 0) {
-        encode_thread->started++;
+    if (pthread_create(&threads[LANE_URGENT], NULL, serve_urgent, encode_thread) != 0) {
+        return false;
     }
-    pthread_mutex_lock(&encode_thread->lock);
-    while (encode_thread->ready < encode_thread->started) {
-        pthread_cond_wait(&encode_thread->change, &encode_thread->lock);
+    encode_thread->started++;
+    if (!patient_create(&threads[LANE_PATIENT], serve_patient, encode_thread)) {
+        return false;
     }
-    pthread_mutex_unlock(&encode_thread->lock);
-    return encode_thread->started == LANES;
+    encode_thread->started++;
+    return true;
 }
 
 struct encode_thread *encode_thread_create(int wake_fd, struct error *err)

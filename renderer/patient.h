@@ -3,8 +3,12 @@
 #ifndef RENDERER_PATIENT_H
 #define RENDERER_PATIENT_H
 
-/* Where both want a processor, the calling thread gets a third of the time of one that draws.
- * Before the process is confined (confine.h). */
-void patient_thread(void);
+#include <pthread.h>
+#include <stdbool.h>
+
+/* As pthread_create(). Where both want a processor, the thread gets a third of the time of one that
+ * draws. Returns when it has that priority, which may not be changed later (confine.h). False:
+ * there is no thread. */
+bool patient_create(pthread_t *out, void *(*main)(void *), void *data);
 
 #endif

@@ -20,7 +20,6 @@ struct scene_reader {
     pthread_cond_t change;
     struct scene_document document;
     struct opened_scene opened;
-    bool ready; /* the thread has its priority */
     bool given, done, stop;
 };
 
@@ -49,10 +48,7 @@ static void *work(void *data)
     struct scene_reader *reader = data;
 
     crash_thread(CRASH_OPENING);
-    patient_thread();
     pthread_mutex_lock(&reader->lock);
-    reader->ready = true;
-    pthread_cond_signal(&reader->change);
     while (!reader->stop) {
         if (!reader->given) {
             pthread_cond_wait(&reader->change, &reader->lock);
@@ -119,14 +115,9 @@ struct scene_reader *scene_reader_create(void)
 
     pthread_mutex_init(&reader->lock, NULL);
     pthread_cond_init(&reader->change, NULL);
-    if (pthread_create(&reader->thread, NULL, work, reader) != 0) {
+    if (!patient_create(&reader->thread, work, reader)) {
         abort();
     }
-    pthread_mutex_lock(&reader->lock);
-    while (!reader->ready) {
-        pthread_cond_wait(&reader->change, &reader->lock);
-    }
-    pthread_mutex_unlock(&reader->lock);
     return reader;
 }
 

@@ -32,7 +32,6 @@ struct pictures {
     pthread_mutex_t lock; /* guards what follows, and the picture in it while it is read */
     pthread_cond_t change;
     struct picture *work;
-    bool ready; /* the thread has its priority */
     bool worked, stop;
 };
 
@@ -62,10 +61,7 @@ static void *work(void *data)
     struct pictures *pictures = data;
 
     crash_thread(CRASH_READING);
-    patient_thread();
     pthread_mutex_lock(&pictures->lock);
-    pictures->ready = true;
-    pthread_cond_broadcast(&pictures->change);
     while (!pictures->stop) {
         struct picture *picture = pictures->work;
 
@@ -241,14 +237,9 @@ struct pictures *pictures_create(void)
 
     pthread_mutex_init(&pictures->lock, NULL);
     pthread_cond_init(&pictures->change, NULL);
-    if (pthread_create(&pictures->thread, NULL, work, pictures) != 0) {
+    if (!patient_create(&pictures->thread, work, pictures)) {
         abort();
     }
-    pthread_mutex_lock(&pictures->lock);
-    while (!pictures->ready) {
-        pthread_cond_wait(&pictures->change, &pictures->lock);
-    }
-    pthread_mutex_unlock(&pictures->lock);
     return pictures;
 }
 
