@@ -203,7 +203,7 @@ struct job_desc {
     int transparent; /* 1: the background is left out, 0: not; -1: the scene's render settings */
     bool careful;    /* it ended a process: in the smallest tiles from the start */
     int patience;    /* times the usual bound on a tile; 0: once */
-    bool exact;      /* wait for the newest revision's shader; else draw the newest drawable */
+    bool exact;      /* wait for the newest revision's shader; else draw what can be drawn now */
     bool in_rounds;  /* of ever more samples, each a whole picture: JOB_ROUND. Color alone */
     bool sparse;     /* fewer rays than pixels, with one sample; the engine does so for color */
     bool as_floats;  /* give raw values (codec_is_raw), not 8/16-bit pixels */

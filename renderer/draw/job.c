@@ -76,18 +76,24 @@ static void choose_width(struct job *job)
     job->row.width = smaller(job->row.width, most);
 }
 
-/* Of a snapshot that is ready. */
+/* Of a snapshot that is ready, or bridged. */
 static struct draw_scene scene_of(const struct job *job)
 {
     struct snapshot *snapshot = job->snapshot;
+    struct program *program = job->bridged ? NULL : snapshot->program;
 
     return (struct draw_scene){
-        .program = snapshot->program,
-        .params = snapshot->program ? snapshot_params(job->renderer, snapshot) : NULL,
+        .program = program,
+        .params = program ? snapshot_params(job->renderer, snapshot) : NULL,
         .environment = snapshot->environment,
         .values = snapshot->field->params,
-        .engine = snapshot->engine,
+        .engine = job->bridged ? snapshot->bridge : snapshot->engine,
     };
+}
+
+static bool may_begin_bridged(const struct job *job)
+{
+    return !job->exact && snapshot_is_bridged(job->snapshot);
 }
 
 /* When its program and environment are there, the picture's own buffers. */
@@ -97,7 +103,8 @@ static enum job_state begin(struct job *job)
     struct frame_uniforms block = snapshot->frame;
     struct render_settings settings;
 
-    switch (snapshot_state(snapshot)) {
+    job->bridged = may_begin_bridged(job);
+    switch (job->bridged ? PROGRAM_READY : snapshot_state(snapshot)) {
     case PROGRAM_PENDING:
         return job->state;
     case PROGRAM_FAILED:
@@ -349,7 +356,8 @@ static enum job_state after_rows(struct job *job)
 
 bool job_step_possible(const struct job *job)
 {
-    return job->state != JOB_WAITING || snapshot_state(job->snapshot) != PROGRAM_PENDING;
+    return job->state != JOB_WAITING || may_begin_bridged(job) ||
+           snapshot_state(job->snapshot) != PROGRAM_PENDING;
 }
 
 bool job_is_drawn(const struct job *job)

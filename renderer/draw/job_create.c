@@ -93,6 +93,7 @@ static void set_desc(struct job *job, const struct job_desc *desc)
     job->depth_far = 2 * target_distance(camera);
     job->in_rounds = desc->in_rounds;
     job->careful = desc->careful;
+    job->exact = desc->exact;
     job->limit_us = (int64_t)tile_ms * 1000 * (desc->patience > 0 ? desc->patience : 1);
     job->level = level_of(job, desc);
     job->request = (struct settings_request){

@@ -66,7 +66,8 @@ struct renderer_verdict *renderer_find_verdict(const struct renderer *renderer,
                                                uint64_t structure_hash, const char *image);
 
 /* What a picture shows: the newest state, or unless that is asked for (`exact`) the newest that can
- * be drawn. Borrowed until the resident changes. NULL and `err`: nothing. */
+ * be drawn, by its program or by the engine meanwhile. Borrowed until the resident changes. NULL
+ * and `err`: nothing. */
 struct snapshot *resident_snapshot(struct resident *resident, const struct job_desc *desc,
                                    struct error *err);
 void resident_forget_views(struct resident *resident);

@@ -111,7 +111,7 @@ struct snapshot *resident_snapshot(struct resident *resident, const struct job_d
     } else if (!newest && err) {
         *err = resident->error;
     }
-    return desc->exact || !drawable ? newest : drawable;
+    return desc->exact || !drawable || (newest && snapshot_is_bridged(newest)) ? newest : drawable;
 }
 
 void resident_forget_views(struct resident *resident)

@@ -271,6 +271,18 @@ void snapshots_settle(struct renderer *renderer)
     }
 }
 
+/* The engine draws a field until its program is compiled, so that an edit is seen at once. */
+static void bridge(struct renderer *renderer, struct snapshot *snapshot,
+                   const struct snapshot *before)
+{
+    if (program_state(snapshot->program) == PROGRAM_PENDING) {
+        snapshot->bridge = before && before->bridge
+                               ? engine_program_ref(before->bridge)
+                               : engine_program_create(snapshot->field, renderer->params.lanes,
+                                                       renderer->params.threads);
+    }
+}
+
 /* A program for the device or for the engine, which draws what is too much for the device's
  * compiler, too. What is made of instructions alone is shared with a snapshot of the same ones
  * (`before`; NULL: none). */
@@ -294,6 +306,9 @@ static bool find_back_end(struct renderer *renderer, struct snapshot *snapshot,
     } else if (compiles) {
         snapshot->program = get_program(renderer, snapshot->field, scene, snapshot->structure_hash,
                                         &snapshot->warning.error, err);
+        if (snapshot->program) {
+            bridge(renderer, snapshot, before);
+        }
     } else {
         snapshot->engine = engine_program_create(snapshot->field, renderer->params.lanes,
                                                  renderer->params.threads);
@@ -356,6 +371,12 @@ const struct error *snapshot_error(const struct snapshot *snapshot)
     return own->kind != ERROR_NONE || !snapshot->program ? own : program_error(snapshot->program);
 }
 
+bool snapshot_is_bridged(const struct snapshot *snapshot)
+{
+    return snapshot->bridge && !snapshot->picture && snapshot->error.kind == ERROR_NONE &&
+           program_state(snapshot->program) == PROGRAM_PENDING;
+}
+
 struct warning snapshot_warning(const struct snapshot *snapshot)
 {
     const struct error *warning = trial_warning(snapshot->trial);
@@ -378,6 +399,7 @@ void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
     leave_waiting(renderer, snapshot);
     trial_unref(&renderer->trials, snapshot->trial);
     engine_program_destroy(snapshot->engine);
+    engine_program_destroy(snapshot->bridge);
     if (snapshot->program) {
         program_unref(renderer->programs, snapshot->program);
     }

@@ -25,6 +25,7 @@ struct snapshot {
     uint32_t environment_us;         /* time that it took */
     bool fewer_steps;                /* than the scene asks for: the driver's bound on loops */
     struct engine_program *engine;   /* NULL: the device draws it */
+    struct engine_program *bridge;   /* what draws while `program` is compiled; NULL: nothing */
     struct trial *trial;             /* of users' code that the engine draws; NULL: has none */
     struct warning warning; /* of users' code, when the program was new, or of the environment's
                              picture; ERROR_NONE: nothing */
@@ -51,6 +52,8 @@ struct snapshot *snapshot_ref(struct snapshot *snapshot);
 /* Of its program, of users' code, and of the picture that its environment is made of. */
 enum program_state snapshot_state(const struct snapshot *snapshot);
 const struct error *snapshot_error(const struct snapshot *snapshot); /* PROGRAM_FAILED: why */
+/* Whether its program is all that it waits for, and the engine can draw it until then. */
+bool snapshot_is_bridged(const struct snapshot *snapshot);
 /* Of its code or its picture; ERROR_NONE: nothing, as far as is known. */
 struct warning snapshot_warning(const struct snapshot *snapshot);
 /* Makes the environments of those whose pictures were read. */

@@ -255,7 +255,9 @@ static void write_domain_call(const struct shader_writer *w, const struct field_
     fprintf(w->out, ");\n");
 }
 
-/* Which kind of surface a cell gives is known only at the end, so both kinds start empty. */
+/* Which kind of surface a cell gives is known only at the end, so both kinds start empty. The count
+ * ends for every number that may come, since a GPU waits for a loop without an end: where there are
+ * only zeros, a program that is warmed up finds no number of cells. */
 static void write_loop(const struct shader_writer *w, const struct field_instruction *in,
                        size_t name)
 {
@@ -270,9 +272,9 @@ static void write_loop(const struct shader_writer *w, const struct field_instruc
     }
     fprintf(w->out,
             "vec3 cell%zu = first%zu;\n"
-            "for (float left%zu = cell_count(first%zu, last%zu); left%zu > 0.0; left%zu -= 1.0) {\n"
-            "p%u = ",
-            name, name, name, name, name, name, name, in->out);
+            "for (int left%zu = min(int(cell_count(first%zu, last%zu)), %d); left%zu > 0; "
+            "left%zu--) {\np%u = ",
+            name, name, name, name, name, SDF_REPEAT_CELLS_MAX, name, name, in->out);
     char cell[32];
     snprintf(cell, sizeof cell, ", cell%zu", name);
     write_domain_call(w, in, "_cell", cell);
@@ -422,7 +424,7 @@ static void write_functions(const struct shader_writer *w)
 static void write_materials(const struct shader_writer *w)
 {
     fprintf(w->out,
-            "s = surface_begin(m0);\nwhile (m0.shares.x > 0.0) {\n"
+            "s = surface_begin(m0);\nfor (int left = 4; left > 0 && m0.shares.x > 0.0; left--) {\n"
             "int i = %zu + %zu * int(m0.slots.x);\n"
             "MaterialValues values = MaterialValues(P_ANY(i), P_ANY(i + 1), P_ANY(i + 2),\n"
             "P_ANY(i + 3), P_ANY(i + 4), P_ANY(i + 5));\n",

@@ -244,10 +244,13 @@ static const char *objection(const struct egl *egl, int index, const struct devi
     return NULL;
 }
 
+/* Where drivers keep compiled shaders: Mesa's name and NVIDIA's, whose cache is off for root. */
 static void prepare_environment(const struct device_params *params)
 {
     if (params->cache_dir) {
         setenv("MESA_SHADER_CACHE_DIR", params->cache_dir, 1);
+        setenv("__GL_SHADER_DISK_CACHE", "1", 1);
+        setenv("__GL_SHADER_DISK_CACHE_PATH", params->cache_dir, 1);
     }
 }
 

@@ -37,9 +37,9 @@ float sd_julia(vec3 p, vec4 c, float iterations)
     int last = 0;
     radius[0] = length(p);
     float e = radius[0];
-    while (last < int(iterations) && e < 2.0 * edge) {
+    for (int i = 0; i < int(iterations) && e < 2.0 * edge; i++) {
         q = vec4(q.x * q.x - dot(q.yzw, q.yzw), 2.0 * q.x * q.yzw) + c;
-        last++;
+        last = i + 1;
         e = length(q);
         radius[last] = e;
     }

@@ -52,9 +52,10 @@ vec3 select_next_ray(ivec2 here, QueuedRay reflection, bool has_reflection, Queu
     }
     if (last) {
         estimate += own ? environment_estimate(next) : vec3(0.0);
-        for (; count > 0; count--) {
-            estimate += environment_estimate(stack_get(here, count - 1));
+        for (int i = count; i > 0; i--) {
+            estimate += environment_estimate(stack_get(here, i - 1));
         }
+        count = 0;
     } else if (own) {
         set_ray(here, next);
     } else if (count > 0) {

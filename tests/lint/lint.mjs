@@ -88,6 +88,14 @@ function checkSwizzles(files) {
     }
 }
 
+// A GPU waits for a loop without an end, and no number need be one: loops count whole numbers.
+function checkLoops(files) {
+    const loop = String.raw`\bwhile\s*\(|\bfor\s*\(\s*(?!u?int\b)`;
+    const see = ([what], file, line) => report(file, line, 'endless', `${what}: loops of shaders are \`for (int\``);
+    search(files.filter((file) => /^renderer\/glsl\/.*\.glsl$/.test(file)), new RegExp(loop), see);
+    search(files.filter((file) => file === 'renderer/field/shader.c'), new RegExp(`"[^"]*?(?:${loop})`), see);
+}
+
 // protocol/ is pure: it prints only where error.c is handed a stream.
 function checkPurity(files) {
     const own = files.filter((file) => /^protocol\/.*\.c$/.test(file));
@@ -305,6 +313,7 @@ if (checkDrawing(root, report)) {
     checkUnused(files, search, report);
 }
 checkBindings(files);
+checkLoops(files);
 checkSwizzles(files);
 checkPurity(files);
 checkImports(files, search, report);
