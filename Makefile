@@ -23,7 +23,7 @@ OUT := $(BUILD)/$(CONFIG)
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 .SUFFIXES:
 .DELETE_ON_ERROR:
-.PHONY: all fieldcast web run test programs docs bench screens lint format check golden-accept pictures gallery clean \
+.PHONY: all fieldcast web run test programs docs bench speeds screens lint format check golden-accept pictures gallery clean \
         install uninstall dist help deps test-deps FORCE
 
 Q := $(if $(filter 1,$(V)),,@)
@@ -58,7 +58,7 @@ link = $(CC) $(config_$(CONFIG)) $(link_$(CONFIG)) -pthread $(CFLAGS) $(LDFLAGS)
 
 # Goals that compile nothing themselves do without packages: they install them, remove files, or call
 # this Makefile again.
-ifneq ($(filter-out all web run test bench lint format check golden-accept clean install uninstall \
+ifneq ($(filter-out all web run test bench speeds lint format check golden-accept clean install uninstall \
                     dist help deps test-deps,$(or $(MAKECMDGOALS),all)),)
 missing := $(foreach l,$(LIBRARIES),$(shell $(PKG_CONFIG) --exists $(firstword $(subst :, ,$(l))) \
                2>/dev/null || echo $(lastword $(subst :, ,$(l)))))
@@ -237,6 +237,10 @@ test: test-deps ## install what is missing, build with ASan and UBSan, run all t
 bench: test-deps ## measure; prints JSON
 	$(again) all
 	$(Q)cd $(S) && node tests/bench.mjs $(abspath $(OUT)) $(ARGS)
+
+speeds: test-deps ## measure, and write tests/bench/README.md and its plots: half an hour on a quiet machine
+	$(again) all
+	$(Q)cd $(S) && node tests/speeds.mjs $(abspath $(OUT))
 
 screens: all ## pictures of every panel, dialog and state of the page, and what is wrong in them
 	$(Q)cd $(S) && FIELDCAST=$(abspath $(OUT))/fieldcast node tests/e2e/screens.mjs $(abspath $(BUILD))/screens $(ARGS)

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// From the bytes of an edit to those of the first picture that shows it, over a live connection on
+// loopback, by kind of edit and size of the scene. Prints one JSON object: milliseconds, and how much
+// longer than a picture of another view ("over_ms", of the 95th percentile).
+import { ask, removeDirectory, startDaemon } from '../support/daemon.mjs';
+import { Live } from '../support/live.mjs';
+
+const NODES = [20, 300, 10000];
+const TIMES = 20;
+const VIEW = { width: 640, height: 360 };
+
+const percentile = (values, share) => {
+    const sorted = [...values].sort((a, b) => a - b);
+    return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
+};
+const round = (x) => Math.round(x * 10) / 10;
+
+const SHAPES = ['sphere', 'box', 'torus', 'capsule'];
+
+/** As many shapes on a floor, in rows. */
+function field(nodes) {
+    const side = Math.ceil(Math.sqrt(nodes - 2));
+    const children = Array.from({ length: nodes - 2 }, (_, i) => ({
+        id: `s${i}`,
+        type: SHAPES[i % SHAPES.length],
+        transform: {
+            translation: [((i % side) / side - 0.5) * 6, 0, (Math.floor(i / side) / side - 0.5) * 6],
+            scale: 2 / side,
+        },
+    }));
+    return {
+        format: 'fieldcast/1',
+        camera: { position: [0, 3, 6], target: [0, 0, 0] },
+        lights: [{ id: 'sun', type: 'directional', direction: [-0.5, -1, -0.3] }],
+        root: { id: 'root', type: 'union', children: [{ id: 'floor', type: 'plane' }, ...children] },
+    };
+}
+
+/** Milliseconds until a frame passes the test, from `act` on, which sends something. */
+async function timed(live, act, passes) {
+    const seen = new Promise((done) => {
+        live.onFrame = (frame) => passes(frame) && done(performance.now());
+    });
+    const start = performance.now();
+    act();
+    const at = await seen;
+    live.onFrame = null;
+    return at - start;
+}
+
+const insert = (i) => ({
+    op: 'insert',
+    into: '/nodes/root',
+    before: null,
+    value: { id: `n${i}`, type: 'sphere', transform: { translation: [0, 1, 0], scale: 0.3 } },
+});
+
+/** What each kind of edit sends; the first of `turns` comes before the second. */
+const KINDS = {
+    numeric: (live, i) => live.set('/nodes/s3/transform/translation', [0, 0.1 + i / 40, 0]),
+    hide: (live, i) => live.set('/nodes/s4/visible', i % 2 === 1),
+    structural: (live, i) => live.change(i % 2 ? [{ op: 'remove', at: `/nodes/n${i - 1}` }] : [insert(i)]),
+    undo: (live, i) => live.step(i % 2 ? 'redo' : 'undo'),
+};
+
+async function measureKinds(live) {
+    const rows = {};
+    let revision = 1;
+
+    const views = [];
+    for (let i = 0; i < TIMES; i += 1) {
+        const camera = { position: [i / 20, 3, 6] };
+        views.push(await timed(live, () => live.look({ ...VIEW, camera }), (frame) => frame.seq === live.seq));
+    }
+    const picture = percentile(views, 0.5);
+    const add = (kind, times) => {
+        const p95 = percentile(times, 0.95);
+        rows[kind] = { p50_ms: round(percentile(times, 0.5)), p95_ms: round(p95), over_ms: round(p95 - picture) };
+    };
+    for (const [kind, send] of Object.entries(KINDS)) {
+        const times = [];
+        for (let i = 0; i < TIMES; i += 1) {
+            revision += 1;
+            times.push(await timed(live, () => send(live, i), (frame) => frame.revision >= revision && !frame.stale));
+        }
+        add(kind, times);
+    }
+    const isolations = [];
+    for (let i = 0; i < TIMES; i += 1) {
+        const isolate = i % 2 ? [] : ['s5', 's6'];
+        isolations.push(await timed(live, () => live.look({ ...VIEW, isolate }), (frame) => frame.seq === live.seq));
+    }
+    add('isolate', isolations);
+    return { picture_ms: round(picture), ...rows };
+}
+
+const daemon = await startDaemon();
+try {
+    const runs = [];
+    for (const nodes of NODES) {
+        await ask(daemon, 'POST', `/v1/scenes?id=n${nodes}`, field(nodes));
+        const live = await Live.open(daemon, `n${nodes}`);
+        live.look(VIEW);
+        await live.nextFrame((frame) => frame.lossless && frame.round + 1 >= frame.rounds);
+        runs.push({ nodes, ...(await measureKinds(live)) });
+        console.error(JSON.stringify(runs.at(-1)));
+        await live.close();
+    }
+    console.log(JSON.stringify({ ...VIEW, runs }));
+} finally {
+    await daemon.stop();
+    removeDirectory(daemon.data);
+}
