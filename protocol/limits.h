@@ -121,6 +121,8 @@
       "bodies of requests that are being received, together")                                      \
     X(ANSWERS_BYTES, "answers_bytes", 536870912, "bytes",                                          \
       "answers that their clients have not read yet, together")                                    \
+    X(ANSWERS_SHARE_BYTES, "answers_share_bytes", 134217728, "bytes",                              \
+      "the same of one client, where it is more than one answer")                                  \
     X(LIVE_SILENCE, "live_silence", 14, "seconds", "a live connection that answers no ping")
 
 enum {

@@ -5,8 +5,10 @@
 
 #include "command.h"
 #include "local_render.h"
+#include "protocol/kinds.h"
 #include "renderer/renderer.h"
 #include "server/algebra.h"
+#include "server/embedded.h"
 
 /* What is wrong at a place of the document in the file. */
 static void print_at(const char *file, const struct error *err, FILE *out)
@@ -77,6 +79,25 @@ static bool prove_all(const char *file, const struct scene *scene)
 
 /* --- documents --- */
 
+static void warn(const char *file, const struct error *warning)
+{
+    fputs("fieldcast: warning: ", stderr);
+    print_at(file, warning, stderr);
+}
+
+/* A document names its picture, which is a file of its own. */
+static void warn_of_picture(const char *file, const struct scene *scene)
+{
+    struct error warning = {0};
+    const char *image = record_text(&scene->environment, "image");
+
+    if (record_number(&scene->environment, "type") == SKY_IMAGE && !example_files_find(image)) {
+        error_set(&warning, ERROR_NOT_FOUND, "/environment/image",
+                  "the document needs the file with the SHA-256 %s, which is not looked at", image);
+        warn(file, &warning);
+    }
+}
+
 static bool check(const char *name)
 {
     struct error err = {0}, warning = {0};
@@ -88,8 +109,10 @@ static bool check(const char *name)
     } else if (!ok) {
         print_at(name, &err, stdout);
     } else if (warning.kind != ERROR_NONE) {
-        fputs("fieldcast: warning: ", stderr);
-        print_at(name, &warning, stderr);
+        warn(name, &warning);
+    }
+    if (scene) {
+        warn_of_picture(name, scene);
     }
     ok = scene && prove_all(name, scene) && ok;
     scene_destroy(scene);

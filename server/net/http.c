@@ -182,12 +182,14 @@ static void settle(struct exchange *exchange)
 /* Frees the body. */
 static struct response refuse_answer(struct http *http, const struct response *response)
 {
-    char detail[120];
+    char detail[160];
 
     metric_add(http->app.metrics, METRIC_ANSWERS_OVER_LIMIT, 1);
-    snprintf(detail, sizeof detail,
-             "answers that clients have not read hold too much; the limit is %d bytes",
-             LIMIT_ANSWERS_BYTES);
+    snprintf(
+        detail, sizeof detail,
+        "answers that clients have not read hold too much; the limit is %d bytes, and %d bytes "
+        "for one client",
+        LIMIT_ANSWERS_BYTES, LIMIT_ANSWERS_SHARE_BYTES);
     shared_buffer_unref(response->shared);
     free(response->body);
     return response_problem(503, "unavailable", "", detail);
@@ -197,13 +199,13 @@ void request_reply(struct request *request, const struct response *response)
 {
     struct exchange *exchange = (struct exchange *)request;
     struct http *http = exchange->http;
-    struct answer *answer = answers_add(&http->answers, response);
+    struct answer *answer = answers_add(&http->answers, request->client, response);
     struct response refusal;
 
     if (!answer) {
         refusal = refuse_answer(http, response);
         response = &refusal;
-        answer = answers_add(&http->answers, response);
+        answer = answers_add(&http->answers, request->client, response);
     }
     struct MHD_Response *built = build_response(exchange, response, answer);
 

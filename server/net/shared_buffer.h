@@ -8,7 +8,8 @@
 
 struct shared_buffer {
     _Atomic int references;
-    int answers; /* that hold it, under the lock of answers.c */
+    int answers;                  /* that hold it, under the lock of answers.c, */
+    struct answers_client *payer; /* and who is charged for them there */
     size_t length;
     uint8_t *bytes;
     void *taken; /* the same, where they were not copied */

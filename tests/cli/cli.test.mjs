@@ -174,6 +174,14 @@ test('check passes what can be drawn, and warns of it as render does', () => {
     assert.match(checked.err, /^fieldcast: warning: steep\.json: \/nodes\/own\/params\/code: the distance changes by up to /);
 });
 
+test('check tells which picture a document needs besides', () => {
+    const document = (image) => JSON.stringify({ format: 'fieldcast/1', environment: { type: 'image', image }, root: { type: 'sphere' } });
+    const checked = run(['check', write('around.json', document('ab'.repeat(32)))]);
+    assert.equal(checked.status, 0);
+    assert.match(checked.err, /^fieldcast: warning: around\.json: \/environment\/image: the document needs the file with the SHA-256 (ab){32}/);
+    assert.equal(succeed(['check', 'example:studio-portrait']).err, '');
+});
+
 test('check warns of a slope that only the second shape has, and of one far from the origin', () => {
     const primitives = { ball: { params: [{ name: 'k', type: 'float', default: 1 }], code: 'float sdf(vec3 p) { return k * (length(p) - 0.5); }' } };
     const shape = (k) => ({ type: 'field', params: { primitive: 'ball', k } });
