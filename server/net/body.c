@@ -32,14 +32,14 @@ bool body_add(struct body *body, struct request *request, const char *bytes, siz
         const size_t capacity = next_capacity(body, wanted);
         const size_t more = counted(capacity) - counted(body->capacity);
 
-        if (body->bodies->held + more > LIMIT_BODIES_BYTES) {
+        if (atomic_load(&body->bodies->held) + more > LIMIT_BODIES_BYTES) {
             free(request->body);
             request->body = NULL;
             request->body_length = 0;
             body_finish(body);
             return false;
         }
-        body->bodies->held += more;
+        atomic_fetch_add(&body->bodies->held, more);
         body->capacity = capacity;
         request->body = memory_resize(request->body, capacity, 1);
     }
@@ -51,6 +51,6 @@ bool body_add(struct body *body, struct request *request, const char *bytes, siz
 
 void body_finish(struct body *body)
 {
-    body->bodies->held -= counted(body->capacity);
+    atomic_fetch_sub(&body->bodies->held, counted(body->capacity));
     body->capacity = 0;
 }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The memory of request bodies during their reception, with one bound for all of them. Used on the
- * thread of http alone. */
+/* The memory of request bodies, with one bound for all of them. Bodies grow on the thread of http
+ * alone. One whose client left earlier than its answer came ends on the thread that answers. */
 #ifndef SERVER_BODY_H
 #define SERVER_BODY_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -11,7 +12,7 @@
 
 /* All bodies together. */
 struct bodies {
-    size_t held; /* bytes, without the first block of each body */
+    atomic_size_t held; /* bytes, without the first block of each body */
 };
 
 /* One body, beside its request. */
@@ -23,7 +24,7 @@ struct body {
 
 /* Appends bytes. False: all bodies would exceed LIMIT_BODIES_BYTES; this body is freed. */
 bool body_add(struct body *body, struct request *request, const char *bytes, size_t length);
-/* Returns its share of the bound. The request keeps the bytes. */
+/* Returns its share of the bound, on any thread. The request keeps the bytes. */
 void body_finish(struct body *body);
 
 #endif

@@ -367,7 +367,7 @@ static void refuse_memory(struct exchange *exchange)
     metric_add(exchange->http->app.metrics, METRIC_BODIES_OVER_LIMIT, 1);
     snprintf(detail, sizeof detail,
              "bodies of requests hold %zu bytes already; the limit is %d bytes",
-             exchange->http->bodies.held, LIMIT_BODIES_BYTES);
+             atomic_load(&exchange->http->bodies.held), LIMIT_BODIES_BYTES);
     struct response response = response_problem(503, "unavailable", "", detail);
     request_reply(&exchange->request, &response);
 }
