@@ -36,7 +36,7 @@ static bool fill(struct error *err, enum error_kind kind, const char *place, con
         snprintf(err->place, sizeof err->place, "%s", place ? place : "");
         replace_malformed(err->place);
     }
-    memcpy(err->message, text, sizeof text);
+    memcpy(err->message, text, strlen(text) + 1);
     err->line = err->column = 0;
     err->measured_ms = err->limit_ms = err->retry_ms = err->position = 0;
     return false;
