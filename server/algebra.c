@@ -53,7 +53,7 @@ static void become(char *const argv[], int output)
     setpriority(PRIO_PROCESS, 0, NICE);
     bound(RLIMIT_CPU, LIMIT_ALGEBRA_SECONDS);
     bound(RLIMIT_CORE, 0);
-#ifndef __SANITIZE_ADDRESS__ /* it reserves terabytes of addresses */
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) /* they reserve terabytes */
     bound(RLIMIT_AS, LIMIT_ALGEBRA_BYTES);
 #endif
     execv(argv[0], argv);
