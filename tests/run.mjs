@@ -55,6 +55,7 @@ const environment = {
         'detect_leaks=1:detect_stack_use_after_return=1:quarantine_size_mb=8:intercept_tls_get_addr=0',
     UBSAN_OPTIONS: 'print_stacktrace=1:halt_on_error=1',
     LSAN_OPTIONS: `suppressions=${path.join(root, 'tests/support/lsan.supp')}:print_suppressions=0`,
+    TSAN_OPTIONS: `suppressions=${path.join(root, 'tests/support/tsan.supp')}:atexit_sleep_ms=0`,
     // Nothing of the user's is read or written; compiled shaders are kept between runs.
     XDG_CONFIG_HOME: path.join(build, 'home/config'),
     XDG_DATA_HOME: path.join(build, 'home/data'),
@@ -138,6 +139,21 @@ const asanOptions = (suite) =>
         ? environment.ASAN_OPTIONS.replace('use_after_return=1', 'use_after_return=0')
         : environment.ASAN_OPTIONS;
 
+// Of ThreadSanitizer. The render process can write below the cache alone, and is killed in the end.
+const reportsOf = (suite) => path.join(environment.FIELDCAST_CACHE, `tsan-${suite.name.replace('/', '-')}`);
+
+/** The texts of the reports of races in a suite and in what it started; removes their files. */
+function takeReports(suite) {
+    const folder = path.dirname(reportsOf(suite));
+    const files = fs.readdirSync(folder).filter((name) => name.startsWith(`${path.basename(reportsOf(suite))}.`));
+    return files.map((name) => {
+        const file = path.join(folder, name);
+        const text = fs.readFileSync(file, 'utf8');
+        fs.unlinkSync(file);
+        return text;
+    });
+}
+
 const running = new Set();
 
 /** Ends a suite that hangs, with all that it started. `onHung` is told why. */
@@ -183,6 +199,7 @@ function execute(suite) {
             env: {
                 ...environment,
                 ASAN_OPTIONS: asanOptions(suite),
+                TSAN_OPTIONS: `${environment.TSAN_OPTIONS}:log_path=${reportsOf(suite)}`,
                 ...(!optimized(suite) && { GALLIVM_PERF: 'nopt' }),
             },
             detached: true, // a process group of its own, so that all of it can be ended
@@ -205,12 +222,14 @@ function execute(suite) {
             watched.end();
             const cpu = takeCpuSeconds();
             const left = !hung && (await endGroup(child.pid));
+            const reports = takeReports(suite);
             running.delete(child.pid);
             resolve({
                 out: Buffer.concat(chunks.out).toString(),
-                all: Buffer.concat(chunks.all).toString(),
+                all: Buffer.concat(chunks.all).toString() + reports.join(''),
                 status,
                 cpu,
+                reports: reports.length,
                 fault: hung ?? (signal ? `died of ${signal}` : left ? 'left processes behind' : null),
             });
         });
@@ -223,6 +242,9 @@ function judge(outcome) {
         count.faults.push(outcome.fault);
     } else if (outcome.status !== 0 && count.failed === 0) {
         count.faults.push(`exited with status ${outcome.status} without a failed test`);
+    }
+    if (outcome.reports > 0) {
+        count.faults.push(`${outcome.reports} processes with data races`);
     }
     if (count.passed + count.failed + count.skipped.length === 0) {
         count.faults.push('printed no test');

@@ -67,6 +67,7 @@ for (const [name, script, status, last] of [
     ['no test at all fails', 'true', 1, '0 passed, 1 failed'],
     ['a crash fails', 'echo ok 1 - a; kill -SEGV $$', 1, '1 passed, 1 failed'],
     ['a status without a reason fails', 'echo ok 1 - a; exit 3', 1, '1 passed, 1 failed'],
+    ['a data race fails', 'echo ok 1 - a; echo race >"${TSAN_OPTIONS#*log_path=}.1"', 1, '1 passed, 1 failed'],
     ['a process left behind fails', 'echo ok 1 - a; sleep 600 &', 1, '1 passed, 1 failed'],
 ]) {
     test(name, async () => assert.deepEqual(await runSuite(script), { status, last, fault: undefined }));
