@@ -160,11 +160,13 @@ static void write_old_database(void)
     struct author *author = authors_add(&room->authors, "the-author");
     cJSON *json = json_text_parse(ops, &err);
     uint64_t revision = 0;
+    hub_lock(&hub);
     room_store_new(room, scene_print(room->scene, false), NULL, NULL);
     assert_int_equal(room_edit(room,
                                &(struct room_change){.author = author->id, .by = author, .edit = 8},
                                json, &revision, &err),
                      ROOM_APPLIED);
+    hub_unlock(&hub);
     store_flush(hub.store);
     cJSON_Delete(json);
     room_destroy(room);
