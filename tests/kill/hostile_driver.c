@@ -69,11 +69,12 @@ static pthread_t later[OBJECTS];   /* by shader or program: who may use it */
 static char is_later[OBJECTS];     /* enum act */
 static _Thread_local int group_ms; /* of the program in use */
 
-/* Of the thread that hangs. */
+/* Of the first thread that hangs. */
 static struct {
     clockid_t clock;
     int64_t begun_ns;
 } hung;
+static atomic_flag one_hangs = ATOMIC_FLAG_INIT;
 static atomic_bool is_hung;
 
 static int64_t ns_of(const struct timespec *t)
@@ -107,10 +108,12 @@ static void hang(void)
 {
     struct timespec now;
 
-    pthread_getcpuclockid(pthread_self(), &hung.clock);
-    real_gettime(hung.clock, &now);
-    hung.begun_ns = ns_of(&now);
-    atomic_store(&is_hung, true);
+    if (!atomic_flag_test_and_set(&one_hangs)) {
+        pthread_getcpuclockid(pthread_self(), &hung.clock);
+        real_gettime(hung.clock, &now);
+        hung.begun_ns = ns_of(&now);
+        atomic_store(&is_hung, true);
+    }
     for (volatile int i = 0;; i++) {
     }
 }
