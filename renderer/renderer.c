@@ -316,13 +316,8 @@ bool renderer_render(struct resident *resident, const struct job_desc *desc,
 bool renderer_check(const struct scene *scene, struct error *out_warning, struct error *err)
 {
     struct field *field = field_compile(scene, err);
-    struct error pole = {0};
-    const bool ok =
-        field && field_check_code(scene, &pole, err) && field_try(field, out_warning, err);
+    const bool ok = field && field_check_code(scene, err) && field_try(field, out_warning, err);
 
-    if (ok && out_warning->kind == ERROR_NONE) {
-        *out_warning = pole;
-    }
     field_unref(field);
     return ok;
 }

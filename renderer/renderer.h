@@ -16,6 +16,7 @@
 #include "protocol/picture.h"
 #include "protocol/render_request.h"
 #include "protocol/scene.h"
+#include "renderer/field/field_quality.h"
 #include "renderer/gl/device.h"
 #include "renderer/image/image.h"
 
@@ -111,8 +112,8 @@ void renderer_asset(struct renderer *renderer, const char *id, const void *bytes
 
 /* Whether the scene can be drawn, as far as that is known without a device: its code is read,
  * checked, bounded and run in C, and every limit of drawing holds. False and `err` with the place
- * that drawing names. `*out_warning` is a WARNING_LIPSCHITZ, or a pole of an equation. Any
- * thread, no renderer. */
+ * that drawing names. `*out_warning` is a WARNING_LIPSCHITZ. Any thread, no renderer. What its
+ * equations are worth is told by field_qualities. */
 bool renderer_check(const struct scene *scene, struct error *out_warning, struct error *err);
 
 /* Names of the passes whose GLSL depends on the scene, "march" first; NULL: there are no more. */

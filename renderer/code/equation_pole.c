@@ -28,9 +28,9 @@ static double value_at(const struct line *line, double t)
     return equation_value(line->equation, p, line->letters);
 }
 
-/* A zero in a bracket makes the difference of its ends vanish with its length; a pole or a jump
- * does not. */
-static bool has_jump(const struct line *line, double low, double high, double *out_t)
+/* A zero in a bracket makes the difference of its ends vanish with its length; a jump does not, and
+ * a pole makes it grow. */
+static enum equation_break break_in(const struct line *line, double low, double high, double *out_t)
 {
     double below = value_at(line, low), above = value_at(line, high);
     const double first = fabs(above - below);
@@ -46,22 +46,25 @@ static bool has_jump(const struct line *line, double low, double high, double *o
         }
     }
     *out_t = (low + high) / 2;
-    return fabs(above - below) > 0.25 * first;
+    const double last = fabs(above - below);
+    return last > 8 * first      ? EQUATION_POLE
+           : last > 0.25 * first ? EQUATION_JUMP
+                                 : EQUATION_UNBROKEN;
 }
 
-static bool find_on(const struct line *line, double *out_t)
+static enum equation_break find_on(const struct line *line, double *out_t)
 {
+    enum equation_break found = EQUATION_UNBROKEN;
     double before = value_at(line, 0);
 
-    for (int i = 1; i <= PARTS; i++) {
+    for (int i = 1; i <= PARTS && !found; i++) {
         const double t = (double)i / PARTS, value = value_at(line, t);
-        if (isfinite(before) && isfinite(value) && (before < 0) != (value < 0) &&
-            has_jump(line, t - 1.0 / PARTS, t, out_t)) {
-            return true;
+        if (isfinite(before) && isfinite(value) && (before < 0) != (value < 0)) {
+            found = break_in(line, t - 1.0 / PARTS, t, out_t);
         }
         before = value;
     }
-    return false;
+    return found;
 }
 
 /* Additive recurrences of the powers of a root of x^7 = x + 1: even in six dimensions (Roberts,
@@ -73,20 +76,44 @@ static double even(int n, int dimension)
     return fmod(0.5 + n * pow(root, -1 - dimension), 1);
 }
 
-bool equation_pole(const struct equation *equation, const double *letters, const double half[3],
-                   double out_at[3])
+static void find_point(const struct equation_clip *clip, int n, int dimension, double out[3])
 {
-    for (int n = 0; n < LINES; n++) {
-        struct line line = {.equation = equation, .letters = letters};
-        double t;
-        for (int i = 0; i < 3; i++) {
-            line.from[i] = (2 * even(n, i) - 1) * half[i];
-            line.way[i] = (2 * even(n, 3 + i) - 1) * half[i] - line.from[i];
-        }
-        if (find_on(&line, &t)) {
-            point_at(&line, t, out_at);
-            return true;
-        }
+    double most = 0, square = 0;
+
+    for (int i = 0; i < 3; i++) {
+        out[i] = 2 * even(n, dimension + i) - 1;
+        most = fmax(most, fabs(out[i]));
+        square += out[i] * out[i];
     }
-    return false;
+    /* The cube's shells become the ball's. */
+    const double scale = clip->ball && square > 0 ? most / sqrt(square) : 1;
+    for (int i = 0; i < 3; i++) {
+        out[i] *= scale * clip->half[i];
+    }
+}
+
+void equation_line(const struct equation_clip *clip, int n, double out_from[3], double out_way[3])
+{
+    find_point(clip, n, 0, out_from);
+    find_point(clip, n, 3, out_way);
+    for (int i = 0; i < 3; i++) {
+        out_way[i] -= out_from[i];
+    }
+}
+
+enum equation_break equation_pole(const struct equation *equation, const double *letters,
+                                  const struct equation_clip *clip, double out_at[3])
+{
+    struct line line = {.equation = equation, .letters = letters};
+    enum equation_break found = EQUATION_UNBROKEN;
+    double t = 0;
+
+    for (int n = 0; n < LINES && !found; n++) {
+        equation_line(clip, n, line.from, line.way);
+        found = find_on(&line, &t);
+    }
+    if (found) {
+        point_at(&line, t, out_at);
+    }
+    return found;
 }

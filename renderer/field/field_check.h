@@ -6,7 +6,7 @@
 #include "protocol/scene.h"
 
 /* Compiles the code of every primitive, shader and node, and reads every equation. False, and the
- * first error with its place. `*out_warning` is the first pole of an equation. Any thread. */
-bool field_check_code(const struct scene *scene, struct error *out_warning, struct error *err);
+ * first error with its place. Any thread. */
+bool field_check_code(const struct scene *scene, struct error *err);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* fieldcast check: are these documents right, can they be drawn, and are their equations those of
- * the parametric surfaces beside them? */
+/* fieldcast check: are these documents right, can they be drawn, how well are their equations
+ * drawn, and are these those of the parametric surfaces beside them? */
 #include <string.h>
 
 #include "command.h"
@@ -77,6 +77,21 @@ static bool prove_all(const char *file, const struct scene *scene)
     return proving.fit;
 }
 
+/* --- equations --- */
+
+/* A warning where more is drawn than the equation has. */
+static void tell_quality(void *data, const struct equation_quality *quality)
+{
+    const bool unsafe = quality->kind == QUALITY_POLE || quality->kind == QUALITY_JUMP;
+    char text[QUALITY_TEXT_BYTES];
+
+    if (quality->kind != QUALITY_UNKNOWN) {
+        fprintf(unsafe ? stderr : stdout, "%s%s: %s: %s%s\n", unsafe ? "fieldcast: warning: " : "",
+                (const char *)data, quality->place, equation_quality_text(quality, text),
+                unsafe ? "; the sign changes there and a wall is drawn" : "");
+    }
+}
+
 /* --- documents --- */
 
 static void warn(const char *file, const struct error *warning)
@@ -113,6 +128,9 @@ static bool check(const char *name)
     }
     if (scene) {
         warn_of_picture(name, scene);
+    }
+    if (ok) {
+        field_qualities(scene, NULL, tell_quality, (void *)name);
     }
     ok = scene && prove_all(name, scene) && ok;
     scene_destroy(scene);

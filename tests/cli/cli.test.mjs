@@ -530,16 +530,25 @@ test('a signal from the terminal, which reaches the worker too, drains', async (
     assert.doesNotMatch(log, /too long/);
 });
 
-test('check warns of an equation with a pole', () => {
-    const wall = (equation) => ({
-        format: 'fieldcast/1',
-        root: { id: 'wall', type: 'implicit', params: { equation, mode: 'sheet' } },
-    });
-    const pole = run(['check', write('pole.json', JSON.stringify(wall('y = 1/(x - 0.5)')))]);
-    assert.equal(pole.status, 0);
-    assert.match(pole.err, /^fieldcast: warning: pole\.json: \/nodes\/wall\/params\/equation: .* near \(0\.5, .*a pole or a jump/);
-    const none = run(['check', write('none.json', JSON.stringify(wall('y = 1/(x^2 + 0.5)')))]);
-    assert.deepEqual([none.status, none.err], [0, '']);
+test('check tells how well each equation is drawn, and warns of a pole', () => {
+    const wall = (equation, mode = 'solid') => ({ id: 'wall', type: 'implicit', params: { equation, mode } });
+    const check = (root) => run(['check', write('wall.json', JSON.stringify({ format: 'fieldcast/1', root }))]);
+    const told = (text) => [0, `wall.json: /nodes/wall/params/equation: ${text}\n`, ''];
+    const parts = ({ status, out, err }) => [status, out, err];
+    assert.deepEqual(parts(check(wall('x^2 + y^2 = z'))), told('exact polynomial of degree 2'));
+    assert.deepEqual(parts(check(wall('y = 1/(x^2 + 0.5)'))), told('safe'));
+    const double = check(wall('(sin(3*x) - y)^2 = 0'));
+    assert.match(double.out, /^wall\.json: \/nodes\/wall\/params\/equation: safe, \d\d % unresolved\n$/);
+    const pole = check(wall('y = 1/(x - 0.5)', 'sheet'));
+    assert.deepEqual([pole.status, pole.out], [0, '']);
+    assert.match(
+        pole.err,
+        /^fieldcast: warning: wall\.json: \/nodes\/wall\/params\/equation: unsafe: pole at \(0\.5, .*; the sign changes there and a wall is drawn\n$/,
+    );
+    const jump = { id: 'all', type: 'union', children: [wall('x = 0'), { ...wall('floor(x) = y'), id: 'steps' }] };
+    const both = check(jump);
+    assert.equal(both.out, told('exact polynomial of degree 1')[1]);
+    assert.match(both.err, /\/nodes\/steps\/params\/equation: unsafe: jump at \(/);
 });
 
 test('without a graphics device the engine draws, unless one is asked for', () => {

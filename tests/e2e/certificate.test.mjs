@@ -70,7 +70,7 @@ test(`the umbrella takes at most ${MOST_ACTS} acts`, async () => {
     console.log(acts.map((words, i) => `# ${i + 1}. ${words}`).join('\n'));
     assert.ok(acts.length <= MOST_ACTS, `${acts.length} acts`);
     const { status, stdout } = check(await ask(stage.daemon, 'GET', `/v1/scenes/${id}`));
-    assert.match(stdout, /^-: \/nodes\/implicit-1\/params\/parametric: verified: degree 3, 2 terms\n$/);
+    assert.match(stdout, /^-: \/nodes\/implicit-1\/params\/parametric: verified: degree 3, 2 terms$/m);
     assert.equal(status, 0);
 
     await page.keyboard.press('Control+z');

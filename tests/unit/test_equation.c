@@ -342,44 +342,59 @@ static void random_texts_do_no_harm(void **state)
 /* --- poles --- */
 
 static const struct {
-    const char *text;
-    bool pole;
-} poles[] = {
-    {"y = 1/(x - a)", true},     {"y = tan(x)", true},      {"y = floor(x)", true},
-    {"y = x/(x^2 - y^2)", true}, {"z = sign(x - y)", true}, {"y < 1/x^3", true},
-    {"y = x^3", false},          {"x*y*z = 1", false},      {"y = 1/(x^2 + 1)", false},
-    {"y = 1/x^2", false},        {"|x| = y", false},        {"y = cbrt(x)", false},
-    {"y = log(x)", false},       {"y = sqrt(x)", false},    {"y = 1e6*x", false},
-    {"y = x*floor(2)", false},   {"max(x, y) = z", false},  {"y = exp(9*x)", false},
+    enum equation_break what;
+    const char *texts[8];
+} breaks[] = {
+    {EQUATION_POLE, {"y = 1/(x - a)", "y = tan(x)", "y = x/(x^2 - y^2)", "y < 1/x^3"}},
+    {EQUATION_JUMP, {"y = floor(x)", "z = sign(x - y)", "atan2(y, x) = 0.1"}},
+    {EQUATION_UNBROKEN,
+     {"y = x^3", "x*y*z = 1", "y = 1/(x^2 + 1)", "y = 1/x^2", "|x| = y", "y = cbrt(x)",
+      "y = log(x)"}},
+    {EQUATION_UNBROKEN,
+     {"y = sqrt(x)", "y = 1e6*x", "y = x*floor(2)", "max(x, y) = z", "y = exp(9*x)"}},
 };
 
 static void poles_are_told_from_zeros(void **state)
 {
-    static const double half[3] = {2, 2, 2};
+    static const struct equation_clip clip = {.half = {2, 2, 2}};
     (void)state;
 
-    for (size_t i = 0; i < sizeof poles / sizeof *poles; i++) {
-        struct equation *equation = read(poles[i].text);
-        double at[3];
-        const bool found = equation_pole(equation, values, half, at);
-        if (found != poles[i].pole) {
-            fail_msg("%s: %s", poles[i].text, found ? "a pole" : "no pole");
+    for (size_t i = 0; i < sizeof breaks / sizeof *breaks; i++) {
+        for (const char *const *text = breaks[i].texts; *text; text++) {
+            struct equation *equation = read(*text);
+            double at[3];
+            const enum equation_break found = equation_pole(equation, values, &clip, at);
+            if (found != breaks[i].what) {
+                fail_msg("%s: %d, not %d", *text, found, breaks[i].what);
+            }
+            free(equation);
         }
-        free(equation);
     }
 }
 
 static void a_pole_has_its_place(void **state)
 {
-    static const double half[3] = {2, 2, 2};
+    static const struct equation_clip clip = {.half = {2, 2, 2}}, small = {.half = {0.4, 2, 2}};
     double at[3];
     (void)state;
     struct equation *equation = read("y = 1/(x - a)");
 
-    assert_true(equation_pole(equation, values, half, at));
+    assert_int_equal(equation_pole(equation, values, &clip, at), EQUATION_POLE);
     assert_true(fabs(at[0] - A) < 1e-6 && fabs(at[1]) <= 2 && fabs(at[2]) <= 2);
-    static const double small[3] = {0.4, 2, 2};
-    assert_false(equation_pole(equation, values, small, at));
+    assert_int_equal(equation_pole(equation, values, &small, at), EQUATION_UNBROKEN);
+    free(equation);
+}
+
+static void a_ball_has_no_corners(void **state)
+{
+    static const struct equation_clip box = {.half = {1, 1, 1}},
+                                      ball = {.half = {1, 1, 1}, .ball = true};
+    double at[3];
+    (void)state;
+    struct equation *equation = read("1/(x + y - 1.6) = z");
+
+    assert_int_equal(equation_pole(equation, values, &box, at), EQUATION_POLE);
+    assert_int_equal(equation_pole(equation, values, &ball, at), EQUATION_UNBROKEN);
     free(equation);
 }
 
@@ -389,7 +404,7 @@ int main(void)
         cmocka_unit_test(texts_are_read_and_printed), cmocka_unit_test(errors_have_their_place),
         cmocka_unit_test(several_errors_are_told),    cmocka_unit_test(limits_hold_on_both_sides),
         cmocka_unit_test(random_texts_do_no_harm),    cmocka_unit_test(poles_are_told_from_zeros),
-        cmocka_unit_test(a_pole_has_its_place),
+        cmocka_unit_test(a_pole_has_its_place),       cmocka_unit_test(a_ball_has_no_corners),
     };
 
     return cmocka_run_group_tests_name("equations", tests, NULL, NULL);

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: MIT */
+/* How well equations are drawn: analytic cases of each quality, with their places. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "renderer/field/field_quality.h"
+#include "tests/support/json_text.h"
+
+enum { MOST = 8 };
+
+struct told {
+    struct equation_quality list[MOST];
+    int count;
+};
+
+static void keep(void *data, const struct equation_quality *quality)
+{
+    struct told *told = data;
+
+    assert_true(told->count < MOST);
+    told->list[told->count++] = *quality;
+}
+
+static struct told judge_document(const char *text, const char *node)
+{
+    struct told told = {.count = 0};
+    struct scene *scene = json_text_valid_scene(text);
+
+    field_qualities(scene, node, keep, &told);
+    scene_destroy(scene);
+    return told;
+}
+
+static struct equation_quality judge(const char *params)
+{
+    char text[600];
+
+    snprintf(text, sizeof text,
+             "{'format': 'fieldcast/1', 'root': {'id': 'it', 'type': 'implicit', 'params': {%s}}}",
+             params);
+    const struct told told = judge_document(text, NULL);
+    assert_int_equal(told.count, 1);
+    return told.list[0];
+}
+
+static double share(const struct equation_quality *quality)
+{
+    return (double)quality->unresolved / quality->rays;
+}
+
+/* --- kinds --- */
+
+/* `least`, `most`: of the share of unresolved rays. */
+static const struct {
+    const char *params;
+    enum equation_quality_kind kind;
+    int degree;
+    double least, most;
+} cases[] = {
+    {"'equation': 'x^2+y^2+z^2 = 1'", QUALITY_POLYNOMIAL, 2, 0, 0},
+    {"'equation': 'x^2+y^2+z^2 = a^2', 'clip': 'ball', 'radius': 3", QUALITY_POLYNOMIAL, 2, 0, 0},
+    {"'equation': 'x*(y + z)^3/7 < 0.1', 'mode': 'sheet'", QUALITY_POLYNOMIAL, 4, 0, 0},
+    {"'equation': 'sin(3*x)*cos(2*y) = z'", QUALITY_SAFE, -1, 0, 0},
+    {"'equation': 'exp(-x^2-y^2) = z'", QUALITY_SAFE, -1, 0, 0},
+    {"'equation': 'sqrt(x^2+y^2) = 0.7'", QUALITY_SAFE, -1, 0, 0},
+    {"'equation': '|x|+|y|+|z| = 0.8'", QUALITY_SAFE, -1, 0, 0},
+    {"'equation': '1/(x^2+y^2+0.5) = 1'", QUALITY_SAFE, -1, 0, 0},
+    {"'equation': '1/x = y'", QUALITY_POLE, -1, 0, 0.1},
+    {"'equation': 'tan(2*x) = y'", QUALITY_POLE, -1, 0, 0.1},
+    {"'equation': 'floor(2*x) = y'", QUALITY_JUMP, -1, 0, 0.1},
+    /* Of two signs nowhere: each ray that meets the surface. */
+    {"'equation': '(x^2+y^2+z^2-1)^2 = 0'", QUALITY_POLYNOMIAL, 4, 0.4, 0.8},
+    {"'equation': '(sin(3*x) - y)^2 = 0'", QUALITY_SAFE, -1, 0.6, 1},
+    {"'equation': '|z| = 0'", QUALITY_SAFE, -1, 0.6, 1},
+    /* Where the slope has no bound a wall is drawn. */
+    {"'equation': 'sqrt(x) = y'", QUALITY_SAFE, -1, 0.2, 0.7},
+};
+
+static void each_kind_is_told(void **state)
+{
+    (void)state;
+
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const struct equation_quality quality = judge(cases[i].params);
+        const double found = quality.rays ? share(&quality) : -1;
+        if (quality.kind != cases[i].kind || quality.degree != cases[i].degree ||
+            found < cases[i].least || found > cases[i].most) {
+            fail_msg("%s: kind %d, degree %d, %d of %d rays", cases[i].params, quality.kind,
+                     quality.degree, quality.unresolved, quality.rays);
+        }
+        assert_string_equal(quality.node, "it");
+        assert_string_equal(quality.place, "/nodes/it/params/equation");
+    }
+}
+
+static void a_pole_has_its_place(void **state)
+{
+    (void)state;
+    const struct equation_quality pole = judge("'equation': 'y = 1/(x - a)', 'a': 0.5");
+    const struct equation_quality outside = judge("'equation': 'y = 1/(x - a)', 'a': 1.6");
+
+    assert_int_equal(pole.kind, QUALITY_POLE);
+    assert_true(fabs(pole.at[0] - 0.5) < 1e-6);
+    assert_int_equal(outside.kind, QUALITY_SAFE);
+}
+
+/* --- documents --- */
+
+static void every_node_of_a_document_is_judged(void **state)
+{
+    static const char text[] =
+        "{'format': 'fieldcast/1', 'root': {'id': 'all', 'type': 'union', 'children': ["
+        "{'id': 'a', 'type': 'implicit', 'params': {'equation': 'x = 0'}},"
+        "{'id': 'b', 'type': 'sphere'},"
+        "{'id': 'c', 'type': 'implicit', 'visible': false, 'transform': {'translation': [1, 2, "
+        "3]}, "
+        "'params': {'equation': '1/x = 0'}},"
+        "{'id': 'd', 'type': 'implicit', 'params': {'equation': 'x +'}}]}}";
+    (void)state;
+    const struct told told = judge_document(text, NULL), one = judge_document(text, "c");
+
+    assert_int_equal(told.count, 3);
+    assert_int_equal(told.list[0].kind, QUALITY_POLYNOMIAL);
+    assert_int_equal(told.list[1].kind, QUALITY_POLE);
+    assert_string_equal(told.list[1].place, "/nodes/c/params/equation");
+    assert_true(told.list[1].at[0] == 0);
+    assert_int_equal(told.list[2].kind, QUALITY_UNKNOWN);
+    assert_int_equal(one.count, 1);
+    assert_string_equal(one.list[0].node, "c");
+    assert_int_equal(judge_document(text, "b").count, 0);
+}
+
+/* --- words --- */
+
+static void check_text(struct equation_quality quality, const char *expected)
+{
+    char text[QUALITY_TEXT_BYTES];
+
+    assert_string_equal(equation_quality_text(&quality, text), expected);
+}
+
+static void words_say_what_was_found(void **state)
+{
+    (void)state;
+    struct equation_quality quality = {.kind = QUALITY_POLYNOMIAL, .degree = 6, .rays = 400};
+
+    check_text(quality, "exact polynomial of degree 6");
+    quality.unresolved = 1;
+    check_text(quality, "exact polynomial of degree 6, below 1 % unresolved");
+    quality.kind = QUALITY_SAFE;
+    quality.unresolved = 51;
+    check_text(quality, "safe, 13 % unresolved");
+    quality = (struct equation_quality){.kind = QUALITY_JUMP, .at = {1, -0.25, 0}};
+    check_text(quality, "unsafe: jump at (1, -0.25, 0)");
+    quality = (struct equation_quality){.kind = QUALITY_POLE, .at = {0, 0.12345, -2}};
+    check_text(quality, "unsafe: pole at (0, 0.123, -2)");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_kind_is_told),
+        cmocka_unit_test(a_pole_has_its_place),
+        cmocka_unit_test(every_node_of_a_document_is_judged),
+        cmocka_unit_test(words_say_what_was_found),
+    };
+
+    return cmocka_run_group_tests_name("quality of equations", tests, NULL, NULL);
+}
