@@ -74,6 +74,7 @@
     X(GROEBNER_KEPT, "groebner_kept", 16, "bases", "those that are made, or were and may be read") \
     X(GROEBNER_SHARE, "groebner_share", 4, "bases", "the same, of one client")                     \
     X(EQUATION_DEFINITIONS, "equation_definitions", 32, "definitions", "those of an equation")     \
+    X(JUDGED_EQUATIONS, "judged_equations", 16, "equations", "an answer about how they are drawn") \
     X(COMPILE_MS, "compile_ms", 60000, "milliseconds", "compiling a scene")                        \
     X(COMPILE_CODE_MS, "compile_code_ms", 2000, "milliseconds",                                    \
       "the same with code in it, at least")                                                        \

@@ -430,6 +430,7 @@ static void hand_over(struct exchange *exchange)
                                         .account = exchange->request.client,
                                         .heavy = exchange->request.body_length > TASK_LIGHT_BYTES ||
                                                  exchange->route->scene == SCENE_ALL ||
+                                                 exchange->route->scene == SCENE_JUDGED ||
                                                  (named && app->scene_is_heavy(app->hub, id)),
                                         .bounded = true,
                                         .run = run_handler,

@@ -16,9 +16,10 @@ enum route_access {
 /* The scene of a handler. With a scene, the handler runs on a thread of the tasks. */
 enum route_scene {
     SCENE_NONE,
-    SCENE_NEW,   /* a new one, one named in the body, or none: what is long to read */
-    SCENE_NAMED, /* named by the first capture */
-    SCENE_ALL,   /* all of them: a heavy task */
+    SCENE_NEW,    /* a new one, one named in the body, or none: what is long to read */
+    SCENE_NAMED,  /* named by the first capture */
+    SCENE_ALL,    /* all of them: a heavy task */
+    SCENE_JUDGED, /* named by the first capture and read alone: a heavy task, in no order */
 };
 
 struct route {

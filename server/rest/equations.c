@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Equations of parametric surfaces over HTTP: found, and proved. */
+/* Equations over HTTP: those of parametric surfaces found and proved, those of a scene judged. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,6 +9,7 @@
 #include "routes.h"
 #include "server/algebra.h"
 #include "server/live/hub.h"
+#include "server/live/scene_quality.h"
 
 struct question {
     struct request *request;
@@ -132,4 +133,22 @@ static bool read_params(struct question *out, const cJSON *json, struct error *e
 void equations_verify(struct request *request)
 {
     wait_in_turn(request, (struct question){.ask = ask_verdict}, read_params);
+}
+
+/* --- judge --- */
+
+void equations_judge(struct request *request)
+{
+    static const char *const queries[] = {"node", NULL};
+    struct error err = {0};
+    cJSON *json =
+        request_check_query(request, queries, &err)
+            ? scene_quality(request->hub, request->capture[0], request_query(request, "node"), &err)
+            : NULL;
+
+    if (json) {
+        request_reply_json(request, 200, json);
+    } else {
+        request_reply_error(request, &err);
+    }
 }

@@ -11,6 +11,7 @@ static const struct route table[] = {
     {"DELETE", "/v1/scenes/{}", scenes_delete, BODY_NONE, GUARDED, SCENE_NAMED},
     {"GET", "/v1/scenes/{}/live", scenes_live, BODY_NONE, GUARDED, SCENE_NONE},
     {"GET", "/v1/scenes/{}/poster.jpg", scenes_poster, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/v1/scenes/{}/equations", equations_judge, BODY_NONE, GUARDED, SCENE_JUDGED},
     {"GET", "/v1/scenes/{}/image.{}", images_of_scene, BODY_NONE, GUARDED, SCENE_NAMED},
     {"GET", "/v1/assets", assets_list, BODY_NONE, GUARDED, SCENE_NONE},
     {"POST", "/v1/assets", assets_create, BODY_FILE, GUARDED, SCENE_ALL},

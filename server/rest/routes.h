@@ -34,6 +34,7 @@ void images_render(struct request *request);
 void images_queue(struct request *request);
 void equations_implicitize(struct request *request);
 void equations_verify(struct request *request);
+void equations_judge(struct request *request);
 void groebner_begin(struct request *request);
 void groebner_look(struct request *request);
 void groebner_cancel(struct request *request);
