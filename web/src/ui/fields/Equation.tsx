@@ -2,13 +2,16 @@
 /* An equation. The picture follows what is typed, as long as it can be read; where it cannot, a mark
  * stands under the letter. Escape restores what was there. */
 import { useEffect, useRef, useState } from "react";
-import { useDocument } from "../state.ts";
+import { lazyPart } from "../lazy.tsx";
+import { useDocument, useView } from "../state.ts";
 import { Mark } from "./Mark.tsx";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
 /* A pause in typing after which the text is sent. */
 const SEND_MS = 250;
+
+const QualityBadge = lazyPart(() => import("./Quality.tsx"));
 
 interface Props extends FieldProps<string> {
     place: string;
@@ -21,6 +24,8 @@ export function EquationField(props: Props) {
     const area = useRef<HTMLTextAreaElement>(null);
     const shown = draft ?? (mixed ? "" : value);
     const problem = useDocument(({ problems }) => problems.get(place) ?? null);
+    const node = /^\/nodes\/([^/]+)\/params\/equation$/.exec(place)?.[1];
+    const alone = useView(({ selection }) => selection.length === 1);
     useEffect(() => () => clearTimeout(timer.current), []);
     const end = (take: boolean): void => {
         clearTimeout(timer.current);
@@ -60,6 +65,7 @@ export function EquationField(props: Props) {
             {problem?.line !== undefined && (
                 <Mark text={shown} line={problem.line} column={problem.column ?? 1} />
             )}
+            {node !== undefined && alone && <QualityBadge node={node} place={place} />}
         </div>
     );
 }
