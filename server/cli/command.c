@@ -30,7 +30,7 @@ static const struct command table[COMMAND_COUNT] = {
         .doc = "Make a scene document of a folder in the JSON format of Schneider's thesis.",
         .more = "Reads all *.json files in and below DIR: primitives, shaders, materials, models, "
                 "scenes. What was put right while reading is told as `file:line:column: what`."},
-    [COMMAND_IMPLICITIZE] = {"implicitize", .operands = "X Y Z", .many = true,
+    [COMMAND_IMPLICITIZE] = {"implicitize", .operands = "X Y Z", .exactly = 3,
         .run = command_implicitize,
         .doc = "Find the equation of a parametric surface.",
         .more = "X, Y and Z are expressions in two of the letters s, t, u, v: polynomials, "

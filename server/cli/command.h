@@ -30,6 +30,7 @@ struct command {
     const char *name;
     const char *operands; /* as help shows them; NULL: it takes none */
     bool many;            /* more than one operand is allowed */
+    int exactly;          /* so many operands, whose names `operands` has; 0: as above */
     bool hidden;          /* for the program itself; help does not show it */
     const char *doc;      /* one line */
     const char *more;     /* the rest of --help, may be NULL */

@@ -14,9 +14,5 @@ static bool ask(struct algebra *algebra, const void *question, cJSON **out, stru
 
 int command_implicitize(const struct options *options)
 {
-    if (options->operand_count != 3) {
-        fputs("fieldcast: implicitize takes three expressions: X Y Z\n", stderr);
-        return EXIT_USAGE;
-    }
     return algebra_command_run(ask, options);
 }

@@ -201,10 +201,13 @@ static bool check_operands(const struct options *options, struct error *err)
     const struct command *command = options->command;
     int count = options->operand_count;
 
-    if (command->operands && count == 0) {
+    if (command->operands && (count == 0 || count < command->exactly)) {
         return error_set(err, ERROR_INVALID, command->name, "needs %s", command->operands);
     }
-    int most = !command->operands ? 0 : command->many ? count : 1;
+    int most = !command->operands ? 0
+               : command->many    ? count
+               : command->exactly ? command->exactly
+                                  : 1;
     if (count > most) {
         return error_set(err, ERROR_INVALID, command->name, "does not take '%s'",
                          options->operands[most]);

@@ -161,3 +161,14 @@ for (const [name, texts, wanted] of REFUSED) {
         assert.match(stderr, wanted);
     });
 }
+
+test('three expressions are taken, no more and no fewer', () => {
+    const run = (...args) => spawnSync(program, ['implicitize', ...args], { encoding: 'utf8' });
+    assert.match(run('--help').stdout, /^Usage: fieldcast implicitize \[OPTION\]\.\.\. X Y Z\n/);
+    for (const [args, why] of [[['s', 't'], /needs X Y Z/], [['s', 't', 's', 'u'], /does not take 'u'/]]) {
+        const { status, stdout, stderr } = run(...args);
+        assert.equal(status, 2);
+        assert.equal(stdout, '');
+        assert.match(stderr, why);
+    }
+});
