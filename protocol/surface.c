@@ -4,6 +4,7 @@
 
 #include "json.h"
 #include "param.h"
+#include "record.h"
 
 const char *const surface_names[SURFACE_MEMBERS + 1] = {"x", "y", "z", "s", "t", "u", "v", NULL};
 
@@ -16,6 +17,15 @@ const char *const surface_methods[] = {[SURFACE_BY_NULLSPACE] = "nullspace",
                                        [SURFACE_BY_GROEBNER] = "groebner",
                                        [SURFACE_BY_SATURATION] = "saturation",
                                        [SURFACE_METHODS] = NULL};
+
+/* clang-format off */
+const struct record_type surface_question_type = {
+    "implicitize", "The equation of a parametric surface.",
+    (const struct param[]){
+        {"method", PARAM_ENUM, .def = {SURFACE_BY_NULLSPACE}, .choices = surface_methods,
+         .doc = SURFACE_METHOD_DOC},
+        {NULL}}};
+/* clang-format on */
 
 static bool read_part(const char **out, const cJSON *json, int member, const char *place,
                       struct error *err)

@@ -29,6 +29,13 @@ enum surface_method {
     SURFACE_METHODS,
 };
 extern const char *const surface_methods[]; /* NULL at the end */
+#define SURFACE_METHOD_DOC                                                                         \
+    "By linear algebra, by resultants, or by a Groebner basis: of the graded ideal, or of the "    \
+    "one "                                                                                         \
+    "with a letter that stands for 1 / denominator."
+struct record_type;
+/* What is asked beside the parts: `method`, one of these. */
+extern const struct record_type surface_question_type;
 
 struct surface {
     const char *parts[SURFACE_PARTS]; /* they stay in the JSON; all NULL: there is none */

@@ -241,8 +241,7 @@ static const struct option_row table[OPTION_COUNT] = {
         .doc = "Distance that is in focus; 0: the target's."},
     [OPTION_METHOD] = {"method", 0, "WORD", OPTION_CHOICE, .choice = method_choice,
         .fallback = "nullspace", .commands = FOR(IMPLICITIZE),
-        .doc = "By linear algebra, by resultants, or by a Groebner basis: of the graded ideal, or "
-               "of the one with a letter that stands for 1 / denominator."},
+        .doc = SURFACE_METHOD_DOC},
     [OPTION_LETTERS] = {"letters", 0, "NAMES", OPTION_TEXT, .commands = FOR(GROEBNER),
         .doc = "The variables, the greatest first, with spaces between them; by default in the "
                "order of the alphabet, with x, y and z last."},

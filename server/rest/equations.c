@@ -87,12 +87,12 @@ static bool ask_equation(struct algebra *algebra, const struct question *questio
 static bool read_parts(struct question *out, const cJSON *json, struct error *err)
 {
     static const char *const parts[] = {"x", "y", "z", "method", NULL};
-    static const struct param method = {"method", PARAM_ENUM, .choices = surface_methods};
+    const struct param *method = surface_question_type.params;
     const cJSON *found[SURFACE_PARTS + 1] = {NULL};
-    double number[4] = {SURFACE_BY_NULLSPACE};
-    bool ok = json_sort_members(json, parts, found, "", err) &&
-              (!found[SURFACE_PARTS] ||
-               param_read(&method, found[SURFACE_PARTS], number, "/method", err));
+    double number[4] = {method->def[0]};
+    bool ok =
+        json_sort_members(json, parts, found, "", err) &&
+        (!found[SURFACE_PARTS] || param_read(method, found[SURFACE_PARTS], number, "/method", err));
 
     out->method = (enum surface_method)number[0];
     for (int i = 0; ok && i < SURFACE_PARTS; i++) {

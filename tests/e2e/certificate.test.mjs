@@ -94,6 +94,28 @@ test('an equation that is changed by hand does not fit, and fits again', async (
     await closePage(page);
 });
 
+test('the method is chosen among those of the schema', async () => {
+    const { page } = await open(UMBRELLA);
+    const asked = [];
+    page.on('request', (request) => request.url().endsWith('/implicitize') && asked.push(request.postDataJSON().method));
+    await page.getByRole('button', { name: 'Change…' }).click();
+    const dialog = page.getByRole('dialog', { name: 'Equation of a parametric surface' });
+    const found = () => dialog.getByText('Degree 3, 2 terms; proved to be exact.').waitFor();
+    await found();
+    const schema = await ask(stage.daemon, 'GET', '/v1/schema.json');
+    const { choices } = schema['x-fieldcast'].implicitize[0];
+    assert.deepEqual(choices, ['nullspace', 'resultant', 'groebner', 'saturation']);
+    const method = dialog.getByRole('combobox', { name: 'Method' });
+    for (const choice of choices.slice(1)) {
+        await method.click();
+        await page.getByRole('option', { name: choice }).click();
+        await dialog.getByText('Looking for the equation…').waitFor();
+        await found();
+    }
+    assert.deepEqual(asked, [undefined, ...choices.slice(1)]);
+    await closePage(page);
+});
+
 test('a letter of the equation is a number of the node', async () => {
     const { page } = await open({ ...UMBRELLA, equation: 'a*x^2 = y^2*z' });
     await told(page, 'Verified');

@@ -118,7 +118,7 @@ export interface Rest {
     createFromText(text: string): Promise<string>;
     /* Of files in the other format, their texts by path; `scene` says which of several. */
     importScene(files: Readonly<Record<string, string>>, scene: string | null): Promise<Imported>;
-    implicitize(texts: PartTexts, signal: AbortSignal): Promise<Implicit>;
+    implicitize(asked: PartTexts & { method?: string }, signal: AbortSignal): Promise<Implicit>;
     /* `params` of an `implicit`. */
     verify(params: JsonObject, signal: AbortSignal): Promise<Proof>;
     createFromExample(example: string): Promise<string>;

@@ -145,6 +145,8 @@ export interface Schema {
     /* What a document's own distance functions and shaders consist of. */
     /* The members of a question about an ideal. */
     readonly ideal: readonly Param[];
+    /* How the equation of a parametric surface is found. */
+    readonly implicitize: readonly Param[];
     readonly primitive: readonly Param[];
     readonly shader: readonly Param[];
     /* Types that their parameters may have. */
@@ -336,6 +338,7 @@ export function readSchema(json: Json): Schema {
         environment: readParams(tables.environment),
         render: readParams(tables.render),
         ideal: readParams(tables.ideal),
+        implicitize: readParams(tables.implicitize),
         primitive: readParams(resources.primitive),
         shader: readParams(resources.shader),
         declared: listOf(resources.declared_types).map((type) => textOf(type) as ParamType),

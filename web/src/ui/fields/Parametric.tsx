@@ -12,10 +12,12 @@ import {
     type SurfaceValue,
     surfaceValue,
 } from "../../model/surface.ts";
-import { useEditor } from "../state.ts";
+import { paramTitle } from "../names.ts";
+import { useDocument, useEditor } from "../state.ts";
 import { t } from "../texts.ts";
 import { Button } from "../widgets/Button.tsx";
 import { Dialog } from "../widgets/Dialog.tsx";
+import { Select } from "../widgets/Select.tsx";
 import { Mark } from "./Mark.tsx";
 import { NumberField } from "./Number.tsx";
 import "./fields.css";
@@ -61,7 +63,7 @@ interface Answer {
 }
 
 /* null: the server has not answered yet. */
-function useEquation(texts: PartTexts): Answer | null {
+function useEquation(texts: PartTexts, method: string | null): Answer | null {
     const { rest } = useEditor();
     const [answer, setAnswer] = useState<Answer | null>(null);
     useEffect(() => {
@@ -73,7 +75,7 @@ function useEquation(texts: PartTexts): Answer | null {
         };
         setAnswer(null);
         const timer = setTimeout(() => {
-            rest.implicitize(texts, request.signal).then(
+            rest.implicitize(method === null ? texts : { ...texts, method }, request.signal).then(
                 (found) => tell({ found, problem: null }),
                 (problem) => tell({ found: null, problem: asProblem(problem) }),
             );
@@ -82,7 +84,7 @@ function useEquation(texts: PartTexts): Answer | null {
             clearTimeout(timer);
             request.abort();
         };
-    }, [rest, texts]);
+    }, [rest, texts, method]);
     return answer;
 }
 
@@ -97,7 +99,9 @@ interface SheetProps {
 
 function Sheet({ surface, onChange, onTake }: SheetProps) {
     const { texts } = surface;
-    const answer = useEquation(texts);
+    /* null: as the server does. */
+    const [method, setMethod] = useState<string | null>(null);
+    const answer = useEquation(texts, method);
     const found = answer?.found ?? null;
     const equation = found === null ? "" : `${found.equation} = 0`;
     /* The fields of the letters stay while the server looks. */
@@ -133,6 +137,7 @@ function Sheet({ surface, onChange, onTake }: SheetProps) {
                         }
                     />
                 ))}
+                <Method value={method} onChange={setMethod} />
                 {/* biome-ignore lint/a11y/noNoninteractiveTabindex: long equations scroll by keys */}
                 <output tabIndex={0} aria-label={t("parametric.equation")}>
                     {equation}
@@ -149,6 +154,32 @@ function Sheet({ surface, onChange, onTake }: SheetProps) {
                 </Button>
             </footer>
         </>
+    );
+}
+
+interface MethodProps {
+    value: string | null;
+    onChange: (method: string) => void;
+}
+
+/* How the equation is found, by the schema; nothing where a server has no choice. */
+function Method({ value, onChange }: MethodProps) {
+    const param = useDocument(({ schema }) => schema.implicitize[0]);
+    if (param === undefined) {
+        return null;
+    }
+    return (
+        <div className="parametric-method">
+            <span>{paramTitle(param)}</span>
+            <Select
+                value={value ?? String(param.default)}
+                label={paramTitle(param)}
+                describedBy="parametric-method"
+                options={param.choices.map((choice) => ({ value: choice, label: choice }))}
+                onChange={onChange}
+            />
+            <p id="parametric-method">{param.doc}</p>
+        </div>
     );
 }
 
