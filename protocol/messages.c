@@ -16,7 +16,7 @@ enum member_kind {
     MEMBER_VALUE,
     MEMBER_CLIENT,
     MEMBER_KEY,
-    MEMBER_CAMERA,
+    MEMBER_RECORD,
     MEMBER_OPERATIONS,
     MEMBER_NODES,
     MEMBER_OBJECT
@@ -26,6 +26,7 @@ struct message_member {
     struct param param; /* of MEMBER_OBJECT and the like only name and doc; `max` ids of nodes */
     bool required;
     enum member_kind kind;
+    const struct record_type *record; /* MEMBER_RECORD */
 };
 
 struct message_type {
@@ -75,7 +76,7 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
         {.param = {"width", SIDE, .doc = "Device pixels."}, .required = true},
         {.param = {"height", SIDE, .doc = "Device pixels."}, .required = true},
         {.param = {"camera", .doc = "What differs from the document's; absent: nothing."},
-         .kind = MEMBER_CAMERA},
+         .kind = MEMBER_RECORD, .record = &camera_type},
         {.param = {"aov", PARAM_ENUM, .choices = aov_picture_names, .doc = "Which output."}},
         {.param = {"quality", PARAM_ENUM, .choices = qualities,
           .doc = "Speed or sharpness in motion."}},
@@ -85,7 +86,10 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
         {.param = {"isolate", .max = LIMIT_ISOLATED,
           .doc = "Ids: this client's pictures and picks show these nodes and what is below them."
                  " Absent, or none in the scene: all."},
-         .kind = MEMBER_NODES})},
+         .kind = MEMBER_NODES},
+        {.param = {"section", .doc = "A plane that cuts this client's pictures and picks; absent:"
+                                     " nothing is cut."},
+         .kind = MEMBER_RECORD, .record = &section_type})},
     [MESSAGE_EDIT] = {"edit", "Changes the scene.", MEMBERS(
         EDIT_NUMBER,
         {.param = {"ops", .doc = "The operations."}, .required = true, .kind = MEMBER_OPERATIONS},
@@ -237,23 +241,29 @@ static bool check_nodes(const cJSON *json, int most, const char *place, struct e
     return ok;
 }
 
+static bool check_record(const struct record_type *type, const cJSON *json, const char *place,
+                         struct error *err)
+{
+    struct record record;
+
+    record_init(&record, type);
+    const bool ok = record_read(&record, json, place, err);
+    record_finish(&record);
+    return ok;
+}
+
 static bool check_member(const struct message_member *member, const cJSON *json, const char *place,
                          struct error *err)
 {
     double number[4];
-    struct record camera;
-    bool ok;
 
     switch (member->kind) {
     case MEMBER_CLIENT:
         return check_client(json, place, err);
     case MEMBER_KEY:
         return check_key(json, place, err);
-    case MEMBER_CAMERA:
-        record_init(&camera, &camera_type);
-        ok = record_read(&camera, json, place, err);
-        record_finish(&camera);
-        return ok;
+    case MEMBER_RECORD:
+        return check_record(member->record, json, place, err);
     case MEMBER_OPERATIONS:
         return edit_check(json, err);
     case MEMBER_NODES:
@@ -383,7 +393,6 @@ bool json_member_bool(const cJSON *object, const char *name, bool fallback)
 static cJSON *describe_member(const struct message_member *member)
 {
     static const char *const names[] = {
-        [MEMBER_CAMERA] = "camera",
         [MEMBER_OPERATIONS] = "operations",
         [MEMBER_NODES] = "nodes",
         [MEMBER_OBJECT] = "object",
@@ -397,7 +406,9 @@ static cJSON *describe_member(const struct message_member *member)
     } else {
         row = cJSON_CreateObject();
         cJSON_AddStringToObject(row, "name", member->param.name);
-        cJSON_AddStringToObject(row, "type", names[member->kind]);
+        cJSON_AddStringToObject(row, "type",
+                                member->kind == MEMBER_RECORD ? member->record->name
+                                                              : names[member->kind]);
         cJSON_AddStringToObject(row, "doc", member->param.doc);
     }
     cJSON_AddBoolToObject(row, "required", member->required);

@@ -197,6 +197,17 @@ const struct record_type picture_type = {"picture", "What is asked of a picture.
     {.name = NULL}}};
 /* clang-format on */
 
+/* clang-format off */
+const struct record_type section_type = {"section",
+    "A plane that cuts the scene: what is on its positive side is left out.",
+    (const struct param[]){
+    {"normal", PARAM_VEC3, .def = {0, 1, 0}, .direction = true,
+     .doc = "Direction of the positive side, of any length; absent: 0, 1, 0."},
+    {"offset", PARAM_FLOAT, UNIT_LENGTH,
+     .doc = "Where the plane is: so far from the origin along the normal; absent: 0."},
+    {.name = NULL}}};
+/* clang-format on */
+
 static const struct stage_row stages[FRAME_STAGES] = {
     [FRAME_QUEUE] = {"queue", "Waiting for other pictures."},
     [FRAME_ENVIRONMENT] = {"environment", "Light of the environment, when it is new."},

@@ -100,6 +100,9 @@ int quality_find(const char *name);       /* -1: none */
 extern const struct record_type picture_type;
 enum { PICTURE_WIDTH = 1280, PICTURE_HEIGHT = 720 }; /* where they are absent */
 
+/* What a request may cut. Where nothing of it is set, nothing is cut. */
+extern const struct record_type section_type;
+
 /* --- time --- */
 
 /* Where the time of a frame goes, in this order. */

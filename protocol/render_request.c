@@ -28,6 +28,7 @@ void render_request_init(struct render_request *request)
     *request = (struct render_request){.codec = CODEC_PNG};
     record_init(&request->picture, &picture_type);
     record_init(&request->camera, &camera_type);
+    record_init(&request->section, &section_type);
     record_init(&request->delivery, &delivery_type);
 }
 
@@ -35,6 +36,7 @@ void render_request_finish(struct render_request *request)
 {
     record_finish(&request->picture);
     record_finish(&request->camera);
+    record_finish(&request->section);
     record_finish(&request->delivery);
     id_set_finish(&request->isolate);
 }
@@ -44,6 +46,7 @@ void render_request_copy(struct render_request *to, const struct render_request 
     to->codec = from->codec;
     record_copy(&to->picture, &from->picture);
     record_copy(&to->camera, &from->camera);
+    record_copy(&to->section, &from->section);
     record_copy(&to->delivery, &from->delivery);
     id_set_copy(&to->isolate, &from->isolate);
 }
@@ -51,15 +54,15 @@ void render_request_copy(struct render_request *to, const struct render_request 
 bool render_request_equal(const struct render_request *a, const struct render_request *b)
 {
     return a->codec == b->codec && record_equal(&a->picture, &b->picture) &&
-           record_equal(&a->camera, &b->camera) && record_equal(&a->delivery, &b->delivery) &&
-           id_set_equal(&a->isolate, &b->isolate);
+           record_equal(&a->camera, &b->camera) && record_equal(&a->section, &b->section) &&
+           record_equal(&a->delivery, &b->delivery) && id_set_equal(&a->isolate, &b->isolate);
 }
 
 /* --- places --- */
 
 static const struct {
     const char *start;
-    char separator; /* between "camera" and its member */
+    char separator; /* between "camera" or "section" and its member */
 } forms[] = {
     [REQUEST_JSON] = {"/", '/'}, [REQUEST_QUERY] = {"?", '.'}, [REQUEST_OPTION] = {"--", '-'}};
 
@@ -140,23 +143,30 @@ static bool set_text(struct record *record, int index, const char *text, const c
 bool render_request_set_text(struct render_request *request, enum request_form form,
                              const char *name, const char *text, struct error *err)
 {
-    static const char word[] = "camera";
-    const size_t skipped = sizeof word;
-    const bool of_camera =
-        strncmp(name, word, skipped - 1) == 0 && name[skipped - 1] == forms[form].separator;
-    struct record *record = of_camera ? &request->camera : &request->picture;
-    const int index = record_type_find(record->type, of_camera ? name + skipped : name);
+    const char separator = forms[form].separator;
+    struct record *record = &request->picture, *const parts[] = {&request->camera,
+                                                                 &request->section};
+    const char *member = name, *meant = NULL;
     char place[ERROR_PLACE_BYTES];
 
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        const size_t length = strlen(parts[i]->type->name);
+
+        if (strncmp(name, parts[i]->type->name, length) == 0 && name[length] == separator) {
+            record = parts[i];
+            member = name + length + 1;
+        }
+        meant = record_type_find(parts[i]->type, name) >= 0 ? parts[i]->type->name : meant;
+    }
+    const int index = record_type_find(record->type, member);
     place_of(place, form, name);
     if (index >= 0) {
         return set_text(record, index, text, place, err);
     }
-    return record_type_find(&camera_type, name) >= 0
-               ? error_set(err, ERROR_INVALID, place,
-                           "there is no such parameter; did you mean \"%s%c%.40s\"?", word,
-                           forms[form].separator, name)
-               : error_set(err, ERROR_INVALID, place, "there is no such parameter");
+    return meant ? error_set(err, ERROR_INVALID, place,
+                             "there is no such parameter; did you mean \"%s%c%.40s\"?", meant,
+                             separator, name)
+                 : error_set(err, ERROR_INVALID, place, "there is no such parameter");
 }
 
 /* --- from JSON --- */
@@ -177,6 +187,9 @@ static bool read_member(struct render_request *request, const cJSON *member, str
     }
     if (strcmp(member->string, "camera") == 0) {
         return record_read(&request->camera, member, "/camera", err);
+    }
+    if (strcmp(member->string, "section") == 0) {
+        return record_read(&request->section, member, "/section", err);
     }
     return record_read_member(&request->picture, member, "", err);
 }
@@ -258,6 +271,7 @@ cJSON *render_request_print(const struct render_request *request)
     record_print(&request->picture, object);
     cJSON_AddStringToObject(object, "format", codec_name(request->codec));
     record_print(&request->camera, cJSON_AddObjectToObject(object, "camera"));
+    record_print(&request->section, cJSON_AddObjectToObject(object, "section"));
     record_print(&request->delivery, cJSON_AddObjectToObject(object, "delivery"));
     cJSON_AddItemToObject(object, "isolate", id_set_print(&request->isolate));
     return object;

@@ -14,6 +14,7 @@
 struct render_request {
     struct record picture;  /* picture_type; what is not set the level or the scene decides */
     struct record camera;   /* camera_type; what is set changes the scene's */
+    struct record section;  /* section_type; empty: nothing is cut */
     struct record delivery; /* delivery_type */
     struct id_set isolate;  /* only these nodes and what is below them; none: all */
     enum codec codec;
@@ -41,7 +42,8 @@ enum request_form { REQUEST_JSON, REQUEST_QUERY, REQUEST_OPTION };
 /* One member by its name in that form, from its text. */
 bool render_request_set_text(struct render_request *request, enum request_form form,
                              const char *name, const char *text, struct error *err);
-/* The members of `picture`, "camera" and "format" from an object. Unknown ones are refused. */
+/* The members of `picture`, "camera", "section" and "format" from an object. Unknown ones are
+ * refused. */
 bool render_request_read(struct render_request *request, const cJSON *object, struct error *err);
 /* After the members: what the rows cannot say of them. Equal requests then print equal texts. */
 bool render_request_check(struct render_request *request, enum request_form form,

@@ -612,6 +612,7 @@ static cJSON *describe_registry(void)
     cJSON_AddItemToObject(registry, "levels", describe_levels());
     cJSON_AddItemToObject(registry, "stages", describe_stages());
     cJSON_AddItemToObject(registry, "picture", describe_request(&picture_type));
+    cJSON_AddItemToObject(registry, "section", describe_request(&section_type));
     cJSON_AddItemToObject(registry, "ideal", describe_params(&ideal_type));
     cJSON_AddItemToObject(registry, "implicitize", describe_params(&surface_question_type));
     cJSON_AddItemToObject(registry, "limits", describe_limits());

@@ -57,10 +57,10 @@ void pick_field_unref(struct pick_field *field)
 }
 
 /* Where the ray meets the surface; -1: nowhere. */
-static double march(const struct pick_field *field, const double origin[3],
-                    const double direction[3])
+static double march(const struct pick_field *field, const struct section *section,
+                    const double origin[3], const double direction[3])
 {
-    return field_march_within(field->field, origin, direction, field->max_distance,
+    return field_march_within(field->field, origin, direction, section, field->max_distance,
                               TOLERANCE * field->max_distance,
                               (int)(LIMIT_PICK_WORK / field->work));
 }
@@ -93,9 +93,21 @@ static void add_through(struct pick_result *result, const char *id)
     }
 }
 
+/* Of what is cut where `p` is, the section's. */
+static void normal_at(const struct pick_field *field, const struct section *section,
+                      const double p[3], double h, double out[3])
+{
+    if (section_beyond(section, p) > field_distance(field->field, p)) {
+        memcpy(out, section->normal, sizeof section->normal);
+    } else {
+        field_normal(field->field, p, h, out);
+    }
+}
+
 /* A field changes no faster than the way, inside too: where its sign changes is a surface. */
-static void follow_through(const struct pick_field *field, const double origin[3],
-                           const double direction[3], struct pick_result *result)
+static void follow_through(const struct pick_field *field, const struct section *section,
+                           const double origin[3], const double direction[3],
+                           struct pick_result *result)
 {
     const double least = LEAST_STEP * field->max_distance;
     bool inside = true;
@@ -105,7 +117,7 @@ static void follow_through(const struct pick_field *field, const double origin[3
     for (uint64_t work = 0; t < field->max_distance && work < LIMIT_PICK_WORK;
          work += field->work) {
         at(origin, direction, t, p);
-        const double d = field_distance(field->field, p);
+        const double d = fmax(field_distance(field->field, p), section_beyond(section, p));
         if ((d < 0) != inside) {
             inside = d < 0;
             add_through(result, leaf_at(field, p));
@@ -119,22 +131,23 @@ struct pick_result pick_at(const struct pick_field *field, const struct pick_que
     const int width = question->width, height = question->height;
     const struct camera camera =
         camera_from_record(question->camera ? question->camera : &field->camera, width, height);
+    const struct section section = section_from_record(question->section);
     struct pick_result result = {0};
     double origin[3], direction[3];
 
     camera_ray(&camera, width, height, question->x, question->y, origin, direction);
-    const double t = march(field, origin, direction);
+    const double t = march(field, &section, origin, direction);
     if (t < 0) {
         return result;
     }
     at(origin, direction, t, result.position);
     const double print = camera.pixel_radius * (camera.orthographic ? 1 : t);
-    field_normal(field->field, result.position, 0.5 * print + 1e-6, result.normal);
+    normal_at(field, &section, result.position, 0.5 * print + 1e-6, result.normal);
     result.distance = t;
     result.hit = true;
     snprintf(result.node, sizeof result.node, "%s", leaf_at(field, result.position));
     if (question->through) {
-        follow_through(field, origin, direction, &result);
+        follow_through(field, &section, origin, direction, &result);
     }
     return result;
 }

@@ -18,10 +18,11 @@ struct pick_field *pick_field_ref(struct pick_field *field);
 void pick_field_unref(struct pick_field *field); /* NULL: nothing */
 
 struct pick_question {
-    const struct record *camera; /* camera_type; NULL: the scene's */
-    int width, height;           /* of the whole picture, pixels */
-    double x, y;                 /* in it, from its left top */
-    bool through;                /* follow the ray on, behind the surface */
+    const struct record *camera;  /* camera_type; NULL: the scene's */
+    const struct record *section; /* section_type; NULL: nothing is cut */
+    int width, height;            /* of the whole picture, pixels */
+    double x, y;                  /* in it, from its left top */
+    bool through;                 /* follow the ray on, behind the surface */
 };
 
 struct pick_result {

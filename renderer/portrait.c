@@ -142,6 +142,7 @@ static bool find_outline(const struct field *field, const struct camera *camera,
 {
     const double cell = 2 * tan(FOV * M_PI / 360) / ROWS;
     const uint64_t work = field_work(field) * STEPS * COLUMNS * ROWS;
+    const struct section none = {0};
 
     *out = (struct outline){{COLUMNS, ROWS}, {0, 0}, INFINITY, 0};
     if (work / 4 > WORK) { /* most rays take few steps */
@@ -152,8 +153,8 @@ static bool find_outline(const struct field *field, const struct camera *camera,
             double origin[3], direction[3], depth;
 
             camera_ray(camera, COLUMNS, ROWS, column + 0.5, row + 0.5, origin, direction);
-            depth = field_march_within(field, origin, direction, 3 * distance, cell / 2 * distance,
-                                       STEPS);
+            depth = field_march_within(field, origin, direction, &none, 3 * distance,
+                                       cell / 2 * distance, STEPS);
             if (depth >= 0) {
                 add_hit(out, column, row, depth);
             }

@@ -212,6 +212,9 @@ struct job_desc {
      * or none that the scene has: everything is. Compiles nothing. Borrowed for the call. */
     const char *const *isolated;
     size_t isolated_count;
+    /* section_type: what it cuts is left out, and throws no shadow. NULL: nothing is cut. Copied.
+     * Compiles nothing. */
+    const struct record *section;
 };
 
 /* The picture that is asked for; the result points into the request. `careful` and `patience` are

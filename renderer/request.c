@@ -11,6 +11,7 @@ struct job_desc job_desc_of(const struct render_request *request)
         .height = render_request_int(request, "height"),
         .region = {(int)region[0], (int)region[1], (int)region[2], (int)region[3]},
         .camera = record_is_empty(&request->camera) ? NULL : &request->camera,
+        .section = record_is_empty(&request->section) ? NULL : &request->section,
         .level = record_is_set(picture, "level") ? render_request_int(request, "level") : -1,
         .samples = render_request_int(request, "samples"),
         .transparent =

@@ -231,3 +231,10 @@ void frame_uniforms_set_camera(struct frame_uniforms *block, const struct camera
     out->size[0] = width;
     out->size[1] = height;
 }
+
+void frame_uniforms_set_section(struct frame_uniforms *block, const struct section *section)
+{
+    block->effects |= section->cuts ? EFFECT_SECTION : 0;
+    set3(block->section_normal, section->normal, 1);
+    block->section_offset = (float)section->offset;
+}

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "camera.h"
+#include "renderer/field/section.h"
 #include "renderer/glsl/interface.h"
 
 /* The bounds of the field. */
@@ -25,5 +26,6 @@ void frame_uniforms_set_scene(struct frame_uniforms *block, const struct scene *
 /* The camera for a picture of this size; with it the lens. */
 void frame_uniforms_set_camera(struct frame_uniforms *block, const struct camera *camera, int width,
                                int height);
+void frame_uniforms_set_section(struct frame_uniforms *block, const struct section *section);
 
 #endif

@@ -103,6 +103,7 @@ static void set_desc(struct job *job, const struct job_desc *desc)
                            ? desc->transparent
                            : record_number(&job->snapshot->render, "transparent") != 0,
         .sparse = desc->sparse,
+        .section = section_from_record(desc->section),
     };
 }
 

@@ -114,7 +114,7 @@ static void set_effects(struct render_settings *settings, struct frame_uniforms 
     block->occlusion_samples =
         is_on(render, "occlusion") ? own_or(render, "occlusion_samples", q->occlusion_samples) : 0;
     block->ray_depth = rays ? depth : 0;
-    block->effects = (block->effects & EFFECT_SUN) |
+    block->effects = (block->effects & (EFFECT_SUN | EFFECT_SECTION)) |
                      (is_on(render, "shadows") ? EFFECT_SHADOWS : 0) |
                      (is_on(render, "reflections") ? EFFECT_REFLECTIONS : 0) |
                      (is_on(render, "refractions") ? EFFECT_REFRACTIONS : 0) |
@@ -135,6 +135,7 @@ bool render_settings_make(struct render_settings *out_settings, struct frame_uni
     const struct quality *q = quality_row(level);
     struct render_settings settings = {.reflective = extent->reflective};
 
+    frame_uniforms_set_section(block, &request->section);
     set_samples(&settings, block, render, q, level, request->samples);
     set_effects(&settings, block, render, q,
                 request->transparent >= 0 ? request->transparent : is_on(render, "transparent"));

@@ -24,6 +24,7 @@ struct settings_request {
     int samples;     /* along an axis; 0: the level's or the scene's */
     int transparent; /* 1, 0; -1: the scene's */
     bool sparse;     /* where a pixel has one sample: fewer rays than pixels */
+    struct section section;
 };
 
 /* After frame_uniforms_set_scene and frame_uniforms_set_camera. `render`: the scene's render_type.

@@ -26,6 +26,7 @@
 #include "protocol/limits.h"
 #include "protocol/scene.h"
 #include "renderer/code/code.h"
+#include "renderer/field/section.h"
 #include "renderer/sdf/bounds.h"
 #include "renderer/sdf/sdf.h"
 
@@ -262,10 +263,11 @@ void field_normal(const struct field *field, const double p[3], double h, double
 double field_march(const struct field *field, const double origin[3], const double direction[3],
                    double max_distance, double tolerance);
 
-/* The same with a bound on its steps, each of which evaluates the field once. */
+/* The same of what a section leaves, with a bound on its steps, each of which evaluates the field
+ * once. */
 double field_march_within(const struct field *field, const double origin[3],
-                          const double direction[3], double max_distance, double tolerance,
-                          int max_steps);
+                          const double direction[3], const struct section *section,
+                          double max_distance, double tolerance, int max_steps);
 
 /* Instructions of one evaluation, and operations of code in it, at most. */
 uint64_t field_work(const struct field *field);

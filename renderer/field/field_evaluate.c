@@ -408,8 +408,8 @@ void field_normal(const struct field *field, const double p[3], double h, double
 }
 
 double field_march_within(const struct field *field, const double origin[3],
-                          const double direction[3], double max_distance, double tolerance,
-                          int max_steps)
+                          const double direction[3], const struct section *section,
+                          double max_distance, double tolerance, int max_steps)
 {
     double t = 0;
 
@@ -418,7 +418,7 @@ double field_march_within(const struct field *field, const double origin[3],
         for (int i = 0; i < 3; i++) {
             p[i] = origin[i] + t * direction[i];
         }
-        double d = field_distance(field, p);
+        const double d = fmax(field_distance(field, p), section_beyond(section, p));
         if (d < tolerance) {
             return t;
         }
@@ -431,7 +431,8 @@ double field_march(const struct field *field, const double origin[3], const doub
                    double max_distance, double tolerance)
 {
     enum { STEPS_MAX = 10000 };
-    return field_march_within(field, origin, direction, max_distance, tolerance, STEPS_MAX);
+    static const struct section none = {0};
+    return field_march_within(field, origin, direction, &none, max_distance, tolerance, STEPS_MAX);
 }
 
 /* Loops of shapes and modifiers themselves are in field.loop_trips. */

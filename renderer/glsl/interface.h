@@ -27,7 +27,8 @@
     X(EFFECT_REFRACTIONS, 4)                                                                       \
     X(EFFECT_SUN, 8)                                                                               \
     X(EFFECT_TRANSPARENT, 16)                                                                      \
-    X(EFFECT_CURVATURE, 32) /* of surfaces is wanted */
+    X(EFFECT_CURVATURE, 32) /* of surfaces is wanted */                                            \
+    X(EFFECT_SECTION, 64)
 /* The samples that a dispatch is for. */
 #define PASS_MODES(X)                                                                              \
     X(PASS_TILE)   /* all of the tile's */                                                         \
@@ -170,8 +171,10 @@
     X(int, has_transmissive)                                                                       \
     X(vec3, transmissive_max)                                                                      \
     X(float, min_throughput) /* what a reflected or refracted ray adds at least */                 \
-    X(vec3, zenith)          /* the colour of a solid environment */                               \
-    X(float, ambient)        /* intensity of the environment's light */                            \
+    X(vec3, section_normal)  /* of length 1: what is beyond this plane is cut off */               \
+    X(float, section_offset)                                                                       \
+    X(vec3, zenith)   /* the colour of a solid environment */                                      \
+    X(float, ambient) /* intensity of the environment's light */                                   \
     X(vec3, horizon)                                                                               \
     X(float, occlusion_reach)                                                                      \
     X(vec3, ground)                                                                                \

@@ -3,6 +3,7 @@
 
 #include "field_bound.glsl"
 #include "ray.glsl"
+#include "section.glsl"
 
 struct Hit {
     bool hit;
@@ -94,7 +95,8 @@ Hit march(Ray ray, float start, float cone, int max_steps)
             vec3 corner = vec3((((i + 3) >> 1) & 1), ((i >> 1) & 1), (i & 1)) * 2.0 - 1.0;
             corner = round == 3 ? east * around.x + north * around.y : corner;
             vec3 offset = round == 0 ? ray.direction * (t + ahead) : corner * e;
-            float d = field_bound(base + offset, t + ahead, round > 0);
+            vec3 p = base + offset;
+            float d = section_cut(field_bound(p, t + ahead, round > 0), p);
             if (field_waits(d)) {
                 i--;
                 continue;

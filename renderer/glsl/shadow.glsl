@@ -4,6 +4,7 @@
 
 #include "field_bound.glsl"
 #include "lights.glsl"
+#include "section.glsl"
 
 /* Where answers go (shadow_sink.glsl, sample_sink.glsl): the part of the environment's light,
  * then that of each light, with the former beside it. */
@@ -124,7 +125,8 @@ float visible(Sight sight, int kind, int steps)
     float x = kind == SIGHT_OPEN ? occlusion_place(0, sight.near) : sight.near, dark = 0.0;
 
     for (int i = zero; i < steps; i++) {
-        float d = field_bound(sight.origin + sight.direction * x, x, true);
+        vec3 p = sight.origin + sight.direction * x;
+        float d = section_cut(field_bound(p, x, true), p);
         if (field_waits(d)) {
             i--;
             continue;

@@ -6,6 +6,7 @@
 #include "lights.glsl"
 #include "noise.glsl"
 #include "ray.glsl"
+#include "section.glsl"
 #include "sky.glsl"
 
 /* Takes a part of a lamp's light from the surface at the ray's end: volume_sink.glsl. */
@@ -175,8 +176,9 @@ vec3 scattered(vec3 p, vec3 view, bool on_surface, out Smoke here)
 
         for (int k = zero; k <= 3 * frame.volume_light_steps; k++) {
             field_mask = k == 0 ? 0.0 : FAR;
-            float d = map(p + lamp.direction * at);
-            Smoke smoke = smoke_at(p + lamp.direction * at, d);
+            vec3 place = p + lamp.direction * at;
+            float d = section_cut(map(place), place);
+            Smoke smoke = smoke_at(place, d);
             if (k == 0) {
                 here = smoke;
             } else {

@@ -68,6 +68,7 @@ static bool read_request(const struct options *options, struct render_request *o
     record_put(&out->delivery, "exact", true);
     return choose_format(options, out, err) && read_members(options, &picture_type, "", out, err) &&
            read_members(options, &camera_type, "camera-", out, err) &&
+           read_members(options, &section_type, "section-", out, err) &&
            render_request_check(out, REQUEST_OPTION, err);
 }
 

@@ -239,6 +239,13 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_CAMERA_FOCUS] = {"camera-focus", 0, "LENGTH", OPTION_NUMBER, COORDINATE,
         .commands = FOR(RENDER),
         .doc = "Distance that is in focus; 0: the target's."},
+    [OPTION_SECTION_NORMAL] = {"section-normal", 0, "X,Y,Z", OPTION_VECTOR, COORDINATE,
+        .commands = FOR(RENDER),
+        .doc = "A plane cuts the scene, and what is on the side that this points to is left out; "
+               "by default nothing is cut, or, with an offset, 0,1,0."},
+    [OPTION_SECTION_OFFSET] = {"section-offset", 0, "LENGTH", OPTION_NUMBER, COORDINATE,
+        .commands = FOR(RENDER),
+        .doc = "How far from the origin that plane is, along its normal; by default 0."},
     [OPTION_METHOD] = {"method", 0, "WORD", OPTION_CHOICE, .choice = method_choice,
         .fallback = "nullspace", .commands = FOR(IMPLICITIZE),
         .doc = SURFACE_METHOD_DOC},

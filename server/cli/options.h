@@ -57,6 +57,8 @@ enum option {
     OPTION_CAMERA_HEIGHT,
     OPTION_CAMERA_APERTURE,
     OPTION_CAMERA_FOCUS,
+    OPTION_SECTION_NORMAL, /* --section-NAME for each member of a section */
+    OPTION_SECTION_OFFSET,
     OPTION_METHOD,
     OPTION_LETTERS, /* named as the members of ideal_type, up to OPTION_DIVIDE */
     OPTION_ORDER,

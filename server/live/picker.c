@@ -228,9 +228,10 @@ static void renew(struct picker *picker, const struct question *question)
 
 static struct pick_result look(const struct pick_field *field, const struct question *question)
 {
-    const struct record *camera = &question->view.camera;
+    const struct record *camera = &question->view.camera, *section = &question->view.section;
     const struct pick_question asked = {
         .camera = record_is_empty(camera) ? NULL : camera,
+        .section = record_is_empty(section) ? NULL : section,
         .width = render_request_int(&question->view, "width"),
         .height = render_request_int(&question->view, "height"),
         .x = question->x,

@@ -117,6 +117,7 @@ static bool same_picture(const struct stream_view *a, const struct stream_view *
 static bool read_picture(const cJSON *message, struct render_request *out, struct error *err)
 {
     const cJSON *camera = cJSON_GetObjectItemCaseSensitive(message, "camera");
+    const cJSON *section = cJSON_GetObjectItemCaseSensitive(message, "section");
     const cJSON *isolate = cJSON_GetObjectItemCaseSensitive(message, "isolate");
 
     render_request_init(out);
@@ -124,6 +125,7 @@ static bool read_picture(const cJSON *message, struct render_request *out, struc
     record_put(&out->picture, "height", json_member_number(message, "height", 0));
     record_put_text(&out->picture, "aov", json_member_text(message, "aov", aov_name(AOV_COLOR)));
     return (!camera || record_read(&out->camera, camera, "/camera", err)) &&
+           (!section || record_read(&out->section, section, "/section", err)) &&
            (!isolate || id_set_read(&out->isolate, isolate, LIMIT_ISOLATED, "/isolate", err));
 }
 
@@ -365,6 +367,12 @@ static struct frame_header header_of(struct session *session, const struct pictu
     return header;
 }
 
+/* Nothing of the scene is left out for this client alone. */
+static bool shows_all(const struct render_request *picture)
+{
+    return picture->isolate.count == 0 && record_is_empty(&picture->section);
+}
+
 static void send_frame(struct session *session, const struct picture_answer *answer)
 {
     struct stream *stream = session->stream;
@@ -377,7 +385,7 @@ static void send_frame(struct session *session, const struct picture_answer *ans
     const uint32_t given_up = send_queue_frame(&session->send_queue, &header, payload);
 
     if (stream->job_stage == STREAM_STILL && header.codec == CODEC_JPEG && newest &&
-        newest_view(stream)->picture.isolate.count == 0) {
+        shows_all(&newest_view(stream)->picture)) {
         poster_set(session->room, payload);
     }
     shared_buffer_unref(payload);

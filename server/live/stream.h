@@ -44,8 +44,9 @@ enum {
 };
 
 struct stream_view {
-    uint32_t seq;                  /* `picture.values` is NULL: there was no view yet */
-    struct render_request picture; /* the whole view: its size, camera, output, what it isolates */
+    uint32_t seq; /* `picture.values` is NULL: there was no view yet */
+    struct render_request
+        picture; /* the whole view: its size, camera, output, what it leaves out */
     enum stream_preference preference;
     bool visible;
     bool guides; /* wants to know which node each pixel shows, and how far */
@@ -83,7 +84,7 @@ void stream_init(struct stream *stream);
 void stream_finish(struct session *session);
 /* Cancels the order. A new view or change starts the stream again. */
 void stream_stop(struct session *session);
-/* Sets the view of a checked `view` message. False and `err`: the camera is wrong. */
+/* Sets the view of a checked `view` message. False and `err`: the camera or section is wrong. */
 bool stream_set_view(struct session *session, const cJSON *message, struct error *err);
 /* The view with this number, else the newest; NULL: there is none yet. */
 const struct stream_view *stream_find_view(const struct stream *stream, uint32_t seq);

@@ -397,6 +397,51 @@ describe('frames', () => {
         await Promise.all([a.close(), b.close()]);
     });
 
+    test('of a section are one viewer’s own, and so are the picks and guides', async () => {
+        const [a, b] = [await open(), await open()];
+        const size = { width: 96, height: 64 };
+        const pixels = (frame) => decodePng(frame.payload).pixels;
+        const settle = (live, view) => {
+            const seq = live.look({ ...size, ...view });
+            return live.nextFrame((frame) => frame.lossless && frame.seq === seq);
+        };
+        const pick = async (live, number) => {
+            live.say({ type: 'pick', pick: number, x: 48, y: 32, seq: live.seq });
+            return await live.next('picked', { pick: number });
+        };
+        const [all, others] = [await settle(a), await settle(b)];
+        const whole = await pick(a, 1);
+        const shown = b.frames.length;
+        const section = { normal: [0, 0, 4], offset: 0.25 };
+        const cut = await settle(a, { section });
+        const picked = await pick(a, 2);
+        const query = 'width=96&height=64&section.normal=0,0,4&section.offset=0.25';
+        const image = await fetch(`${daemon.url}/v1/scenes/${scene}/image.png?${query}`);
+        const posted = await fetch(`${daemon.url}/v1/render`, {
+            method: 'POST',
+            headers: { 'Content-Type': 'application/json' },
+            body: JSON.stringify({ scene, ...size, section }),
+        });
+        assert.ok(!pixels(cut).equals(pixels(all)));
+        for (const answer of [image, posted]) {
+            const asked = decodePng(Buffer.from(await answer.arrayBuffer())).pixels;
+            assert.ok(pixels(cut).equals(asked));
+        }
+        assert.equal(whole.node, 'ball');
+        assert.equal(picked.node, 'ball');
+        assert.ok(Math.abs(picked.position[2] - 0.25) < 1e-3);
+        assert.deepEqual(picked.normal, [0, 0, 1]);
+        assert.ok(picked.distance > whole.distance + 0.1);
+        assert.equal(cut.revision, all.revision);
+        assert.equal(a.messages.concat(b.messages).filter((m) => m.type === 'changed').length, 0);
+        assert.equal(b.frames.length, shown, 'nobody else was sent a picture');
+        assert.ok(pixels(await settle(b, { quality: 'sharp' })).equals(pixels(others)));
+        assert.ok(pixels(await settle(a)).equals(pixels(all)));
+        a.say({ type: 'view', seq: 99, ...size, section: { normal: [0, 0, 0] } });
+        assert.match((await a.next('error')).message, /no direction/);
+        await Promise.all([a.close(), b.close()]);
+    });
+
     test('follow the camera of the view, which image.png can be given too', async () => {
         const live = await open();
         const camera = { position: [3, 2, 4], target: [1, 0, 0], fov: 30 };

@@ -69,6 +69,9 @@ static void valid_messages_are_accepted(void **state)
                     "'camera':{'position':[0,1,5],'fov':30},'aov':'depth','quality':'sharp',"
                     "'visible':false}",
                     MESSAGE_VIEW);
+    assert_accepted("{'type':'view','seq':0,'width':1,'height':1,"
+                    "'section':{'normal':[1,0,-1],'offset':0.5}}",
+                    MESSAGE_VIEW);
     assert_accepted("{'type':'edit','edit':1,'ops':[{'op':'remove','at':'/nodes/a'}],'group':'g',"
                     "'label':'Remove a'}",
                     MESSAGE_EDIT);
@@ -125,6 +128,10 @@ static void invalid_messages_are_refused(void **state)
                    "/aov", "");
     assert_refused("{'type':'view','seq':1,'width':9,'height':9,'camera':{'fov':0}}", ERROR_INVALID,
                    "/camera/fov", "0 is below the minimum 1");
+    assert_refused("{'type':'view','seq':1,'width':9,'height':9,'section':{'normal':[0,0,0]}}",
+                   ERROR_INVALID, "/section/normal", "0, 0, 0 has no direction");
+    assert_refused("{'type':'view','seq':1,'width':9,'height':9,'section':{'offset':'x'}}",
+                   ERROR_INVALID, "/section/offset", "");
     assert_refused("{'type':'view','seq':1,'width':9,'height':9,'visible':1}", ERROR_INVALID,
                    "/visible", "expected true or false");
     assert_refused("{'type':'view','seq':1,'width':9,'height':9,'isolate':'a'}", ERROR_SYNTAX,

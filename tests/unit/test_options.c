@@ -264,9 +264,9 @@ static void members_of_a_request_have_options(void **state)
     static const struct {
         const struct record_type *type;
         const char *prefix;
-    } types[] = {{&picture_type, ""}, {&camera_type, "camera-"}};
+    } types[] = {{&picture_type, ""}, {&camera_type, "camera-"}, {&section_type, "section-"}};
     (void)state;
-    for (size_t t = 0; t < 2; t++) {
+    for (size_t t = 0; t < sizeof types / sizeof types[0]; t++) {
         for (const struct param *param = types[t].type->params; param->name; param++) {
             char name[64];
             snprintf(name, sizeof name, "%s%s", types[t].prefix, param->name);

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "protocol/picture.h"
 #include "renderer/pick.h"
 #include "tests/support/json_text.h"
 
@@ -75,18 +76,6 @@ static void picks_find_what_is_isolated(void **state)
     pick_field_unref(one);
 }
 
-static void picks_hit_the_floor(void **state)
-{
-    struct pick_field *field = make_field(ball_on_floor);
-    const struct pick_result hit = look(field, 320, 350);
-
-    (void)state;
-    assert_true(hit.hit);
-    assert_string_equal(hit.node, "");
-    assert_true(fabs(hit.position[1] + 1) < 1e-3);
-    pick_field_unref(field);
-}
-
 static struct pick_result look_through(const struct pick_field *field, double x, double y)
 {
     return pick_at(field, &(struct pick_question){
@@ -102,6 +91,56 @@ static void assert_through(const struct pick_result *result, const char *expecte
         strncat(all, " ", sizeof all - strlen(all) - 1);
     }
     assert_string_equal(all, expected);
+}
+
+/* A cut is hit where it is seen, its normal is the plane's, and what it took away is not behind it
+ * either. */
+static void picks_find_what_is_cut(void **state)
+{
+    static const char nested[] =
+        "{'format':'fieldcast/1','camera':{'position':[0,0,5],'target':[0,0,0]},"
+        "'root':{'type':'union','children':["
+        "{'id':'front','type':'sphere','params':{'radius':0.4},"
+        "'transform':{'translation':[0,0,2]}},"
+        "{'type':'difference','children':[{'id':'shell','type':'sphere','params':{'radius':1}},"
+        "{'id':'tool','type':'sphere','params':{'radius':0.8}}]}]}}";
+    struct pick_field *field = make_field(nested);
+    struct pick_question asked = {.width = 640, .height = 360, .x = 320, .y = 180, .through = true};
+    struct record section;
+    struct error err = {0};
+
+    (void)state;
+    record_init(&section, &section_type);
+    cJSON *json = json_text_parse("{'normal':[0,3,4],'offset':0.3}", &err);
+    assert_true(record_read(&section, json, "", &err));
+    assert_string_equal(pick_at(field, &asked).node, "front");
+    asked.section = &section;
+    struct pick_result hit = pick_at(field, &asked);
+    assert_string_equal(hit.node, "tool"); /* inside of the shell, on its far side */
+    assert_true(fabs(hit.position[2] + 0.8) < 1e-3);
+    assert_through(&hit, "tool shell ");
+    asked.y = 106; /* through the wall, which the plane cuts */
+    hit = pick_at(field, &asked);
+    assert_true(hit.hit);
+    assert_string_equal(hit.node, "shell");
+    assert_true(fabs(0.6 * hit.position[1] + 0.8 * hit.position[2] - 0.3) < 1e-3);
+    assert_true(hit.normal[0] == 0 && fabs(hit.normal[1] - 0.6) < 1e-9 &&
+                fabs(hit.normal[2] - 0.8) < 1e-9);
+    cJSON_Delete(json);
+    record_finish(&section);
+    pick_field_unref(field);
+}
+
+static void picks_hit_the_floor(void **state)
+{
+    struct pick_field *field = make_field(ball_on_floor);
+    const struct pick_result hit = look(field, 320, 350);
+
+    (void)state;
+    assert_true(hit.hit);
+    assert_string_equal(hit.node, "");
+    assert_true(fabs(hit.position[1] + 1) < 1e-3);
+    pick_field_unref(field);
 }
 
 /* The tool of a cut, what it cuts, and what is behind; the floor is no node. */
@@ -219,6 +258,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(picks_hit_a_ball),
         cmocka_unit_test(picks_find_what_is_isolated),
+        cmocka_unit_test(picks_find_what_is_cut),
         cmocka_unit_test(picks_hit_the_floor),
         cmocka_unit_test(picks_list_what_lies_behind),
         cmocka_unit_test(any_camera_can_pick),

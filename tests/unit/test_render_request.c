@@ -32,6 +32,8 @@ static const struct member members[] = {
     {"camera.fov", "50.5"},
     {"camera.up", "0,0,1"},
     {"camera.type", "orthographic"},
+    {"section.normal", "0,0,-2"},
+    {"section.offset", "0.25"},
 };
 
 static void read_texts(struct render_request *out, enum request_form form, char separator)
@@ -74,13 +76,18 @@ static void every_form_says_the_same(void **state)
     assert_true(read_json(&json,
                           "{'width':320,'height':200,'region':[1,2,30,40],'aov':'color,depth',"
                           "'level':'final','samples':2,'transparent':true,'quality':70,"
-                          "'camera':{'fov':50.5,'up':[0,0,1],'type':'orthographic'}}",
+                          "'camera':{'fov':50.5,'up':[0,0,1],'type':'orthographic'},"
+                          "'section':{'normal':[0,0,-2],'offset':0.25}}",
                           &err));
     assert_true(render_request_equal(&query, &option));
     assert_true(render_request_equal(&query, &json));
     render_request_copy(&copy, &query);
     assert_true(render_request_equal(&query, &copy));
     record_put(&copy.camera, "fov", 51);
+    assert_false(render_request_equal(&query, &copy));
+    record_put(&copy.camera, "fov", 50.5);
+    assert_true(render_request_equal(&query, &copy));
+    record_put(&copy.section, "offset", 0.5);
     assert_false(render_request_equal(&query, &copy));
     render_request_finish(&query);
     render_request_finish(&option);
@@ -184,6 +191,17 @@ static void errors_name_the_place_in_its_form(void **state)
     check_refused(REQUEST_QUERY, "exact", "true", "?exact"); /* a delivery is nobody's to ask */
     assert_false(read_json(&request, "{'camera':{'fov':500}}", &err));
     assert_string_equal(err.place, "/camera/fov");
+    render_request_finish(&request);
+    check_refused(REQUEST_QUERY, "section.normal", "0,0,0", "?section.normal");
+    check_refused(REQUEST_QUERY, "section.normal", "1,0", "?section.normal");
+    check_refused(REQUEST_OPTION, "section-offset", "1e9", "--section-offset");
+    check_refused(REQUEST_QUERY, "offset", "1", "?offset");
+    assert_false(read_json(&request, "{'section':{'normal':[0,0,0]}}", &err));
+    assert_string_equal(err.place, "/section/normal");
+    assert_non_null(strstr(err.message, "0, 0, 0 has no direction"));
+    render_request_finish(&request);
+    assert_false(read_json(&request, "{'section':{'side':1}}", &err));
+    assert_string_equal(err.place, "/section/side");
     render_request_finish(&request);
     assert_false(read_json(&request, "{'format':'hdr','aov':'color,normal'}", &err));
     assert_string_equal(err.place, "/aov");

@@ -339,6 +339,8 @@ static void registry_is_complete(void **state)
     assert_described(at(registry, "node"), &node_common_type);
     assert_described(at(registry, "transform"), &transform_type);
     assert_described(at(registry, "camera"), &camera_type);
+    assert_int_equal(cJSON_GetArraySize(at(registry, "section")),
+                     (int)record_type_count(&section_type));
     assert_described(at(registry, "environment"), &environment_type);
     assert_described(at(registry, "render"), &render_type);
     for (int i = 0; light_types[i].name; i++) {
