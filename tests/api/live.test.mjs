@@ -184,9 +184,11 @@ describe('waiting for a picture', () => {
         const answer = await poster();
         assert.equal(answer.headers.get('content-type'), 'image/jpeg');
         assert.deepEqual(Buffer.from(await answer.arrayBuffer()), frame.payload);
-        live.look({ width: 128, height: 96, isolate: ['box'] });
-        await live.nextFrame((one) => one.still && one.codec === 'jpeg' && one.seq === live.seq);
-        assert.deepEqual(Buffer.from(await (await poster()).arrayBuffer()), frame.payload);
+        for (const own of [{ isolate: ['box'] }, { section: { offset: 0 } }]) {
+            live.look({ width: 128, height: 96, ...own });
+            await live.nextFrame((one) => one.still && one.codec === 'jpeg' && one.seq === live.seq);
+            assert.deepEqual(Buffer.from(await (await poster()).arrayBuffer()), frame.payload);
+        }
         await live.close();
     });
 
@@ -438,7 +440,8 @@ describe('frames', () => {
         assert.ok(pixels(await settle(b, { quality: 'sharp' })).equals(pixels(others)));
         assert.ok(pixels(await settle(a)).equals(pixels(all)));
         a.say({ type: 'view', seq: 99, ...size, section: { normal: [0, 0, 0] } });
-        assert.match((await a.next('error')).message, /no direction/);
+        const refused = await a.next('notice', { place: '/section/normal' });
+        assert.match(refused.message, /no direction/);
         await Promise.all([a.close(), b.close()]);
     });
 

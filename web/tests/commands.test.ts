@@ -21,6 +21,12 @@ import type { Operation } from "../src/model/operation.ts";
 import { apply } from "../src/model/operations.ts";
 import type { Way } from "../src/model/placing.ts";
 import { newResource } from "../src/model/resources.ts";
+import {
+    printSection,
+    sectionAcross,
+    sectionRange,
+    sectionSeenFrom,
+} from "../src/model/section.ts";
 import { createStores } from "../src/model/stores.ts";
 import { SCHEMA, scene } from "./fixture.ts";
 
@@ -390,6 +396,39 @@ test("to isolate is no edit, and ends by the same key, Escape, or showing all", 
     expect(run("node.isolate")).not.toBeNull();
     expect(done).toEqual([]);
     expect(commandForKey(press("H", "s", "KeyH"), "tree", "no", true)?.id).toBe("node.isolate");
+});
+
+test("a section is no edit, looks at the cut, and ends by the same key or Escape", () => {
+    const { run, stores, done } = page(["head"]);
+    const section = () => stores.view.getState().section;
+    const { camera } = stores.camera.getState();
+    stores.camera.setState({ camera: { ...camera, position: [-9, 1, 2], target: [0, 0, 0] } });
+    for (const end of ["view.section", "escape"]) {
+        expect(run("view.section")).toBeNull();
+        expect(section()).toMatchObject({ axis: "x", flipped: true });
+        expect(run(end)).toBeNull();
+        expect(section()).toBeNull();
+        expect(stores.view.getState().selection).toEqual(["head"]);
+    }
+    expect(done).toEqual([]);
+    expect(commandForKey(press("k", "", "KeyK"), "view", "no", true)?.id).toBe("view.section");
+});
+
+test("a section is told to the server as a plane, whichever side is kept", () => {
+    const ball = { center: [1, 2, 3], radius: 2 } as const;
+    const section = sectionSeenFrom([1.5, 9, 3], ball);
+    expect(section).toEqual({ axis: "y", at: 2, flipped: false });
+    expect(printSection({ ...section, at: 2.5 })).toEqual({ normal: [0, 1, 0], offset: 2.5 });
+    expect(printSection({ ...section, at: 2.5, flipped: true })).toEqual({
+        normal: [0, -1, 0],
+        offset: -2.5,
+    });
+    expect(sectionAcross({ ...section, flipped: true }, "z", ball)).toEqual({
+        axis: "z",
+        at: 3,
+        flipped: true,
+    });
+    expect(sectionRange("x", ball)).toEqual({ low: -1, high: 3 });
 });
 
 test("Escape ends an isolation before it deselects", () => {

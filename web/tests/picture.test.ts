@@ -173,6 +173,7 @@ test("a picture is asked for by its address", () => {
             level: "final",
             transparent: true,
             camera: { position: [1, 2, 3], fov: 40 },
+            section: { normal: [0, 0, -1], offset: 0.5 },
         }),
     );
     expect(Object.fromEntries(url.searchParams)).toEqual({
@@ -183,6 +184,8 @@ test("a picture is asked for by its address", () => {
         transparent: "true",
         "camera.position": "1,2,3",
         "camera.fov": "40",
+        "section.normal": "0,0,-1",
+        "section.offset": "0.5",
     });
 });
 

@@ -445,6 +445,10 @@ const DIALOGS = [
         await page.keyboard.press('Shift+H');
         await page.getByTestId('isolated').waitFor();
     }, { clean: (page) => page.getByRole('button', { name: 'Show all' }).click() }],
+    ['section', async (page) => {
+        await page.getByRole('button', { name: 'Section' }).click();
+        await page.getByTestId('section').waitFor();
+    }, { clean: (page) => page.getByTestId('section').getByRole('button', { name: 'Show all' }).click() }],
     ['panels hidden', key('Control+\\'), { clean: key('Control+\\') }],
 ];
 

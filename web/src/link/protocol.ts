@@ -35,6 +35,8 @@ export interface ViewMessage {
     readonly guides: boolean;
     /* Ids of the nodes that are shown alone; absent: all are. */
     readonly isolate?: readonly string[];
+    /* The plane that cuts the pictures and picks; absent: none. */
+    readonly section?: JsonObject;
 }
 
 export interface PickMessage {

@@ -45,6 +45,7 @@ export interface PictureRequest {
     readonly level?: string;
     readonly transparent?: boolean;
     readonly camera?: JsonObject;
+    readonly section?: JsonObject;
 }
 
 export interface Imported {
@@ -177,7 +178,7 @@ async function problemOf(response: Response): Promise<RestError> {
 const segment = encodeURIComponent;
 
 function queryOf(picture: PictureRequest): string {
-    const { width, height, region, outputs, level, transparent, camera } = picture;
+    const { width, height, region, outputs, level, transparent, ...parts } = picture;
     const query = new URLSearchParams({ width: String(width), height: String(height) });
     if (region) {
         query.set("region", region.join(","));
@@ -191,8 +192,10 @@ function queryOf(picture: PictureRequest): string {
     if (transparent !== undefined) {
         query.set("transparent", String(transparent));
     }
-    for (const [name, value] of Object.entries(camera ?? {})) {
-        query.set(`camera.${name}`, String(value));
+    for (const part of ["camera", "section"] as const) {
+        for (const [name, value] of Object.entries(parts[part] ?? {})) {
+            query.set(`${part}.${name}`, String(value));
+        }
     }
     return query.toString();
 }

@@ -4,6 +4,7 @@
 import { cameraOf, equalCamera, printCamera } from "../model/camera.ts";
 import type { SceneDocument } from "../model/document.ts";
 import type { Value, Values } from "../model/schema.ts";
+import { sectionMember } from "../model/section.ts";
 import type { Stores } from "../model/stores.ts";
 import type { ViewState } from "./engine.ts";
 import type { Host } from "./host.ts";
@@ -36,6 +37,7 @@ export class Viewer {
                 if (
                     now.aov !== before.aov ||
                     now.isolated !== before.isolated ||
+                    now.section !== before.section ||
                     quality !== before.preferences.quality
                 ) {
                     this.tell();
@@ -90,7 +92,7 @@ export class Viewer {
         if (!this.#isOpen() || !this.#size) {
             return;
         }
-        const { aov, isolated, preferences } = this.#stores.view.getState();
+        const { aov, isolated, preferences, section } = this.#stores.view.getState();
         const { camera, own } = this.#stores.camera.getState();
         const view: ViewState = {
             width: this.#size.width,
@@ -101,6 +103,7 @@ export class Viewer {
             visible: document.visibilityState === "visible" && this.#element !== null,
             guides: true,
             ...(isolated.length > 0 ? { isolate: isolated } : {}),
+            ...sectionMember(section),
         };
         this.#host.send({ kind: "view", view });
     }

@@ -22,6 +22,7 @@ import { movablesOf } from "./movables.ts";
 import { isParked, parkable } from "./moves.ts";
 import type { Operation } from "./operation.ts";
 import { limitOf, type Schema } from "./schema.ts";
+import { sectionSeenFrom } from "./section.ts";
 import { addNotice, type Stores, setPreferences } from "./stores.ts";
 import { capitalised, text } from "./texts.ts";
 import { dot, subtract, type Vector } from "./transform.ts";
@@ -237,6 +238,18 @@ export function showAll(app: App): void {
     if (document && ids.length > 0) {
         app.edit(setVisible(document, ids, true).ops, { label: "show all" });
     }
+}
+
+/* Cuts what this page shows through its middle, or no longer. No edit. */
+export function toggleSection({ stores }: App): void {
+    const { document, schema } = stores.document.getState();
+    const { camera } = stores.camera.getState();
+    stores.view.setState(({ section }) => ({
+        section:
+            section === null && document !== null
+                ? sectionSeenFrom(camera.position, ballOf(document, schema))
+                : null,
+    }));
 }
 
 /* This page shows the selection alone, or all again. No edit. */

@@ -37,6 +37,7 @@ import {
     saved,
     selectionOf,
     showAll,
+    toggleSection,
 } from "./actions.ts";
 import { dissolve, duplicate, reorder, wrap } from "./edits.ts";
 import { PIVOTS, SPACES } from "./hands.ts";
@@ -626,6 +627,15 @@ export const COMMANDS: readonly Command[] = [
         group: "view",
         whyNot: never,
         run: show(({ measured }) => ({ measured: measured === null ? [] : null })),
+    }),
+    row({
+        id: "view.section",
+        words: "cut plane clip slice inside cross clipping",
+        title: "Section: cut the picture by a plane",
+        group: "view",
+        keys: ["K"],
+        whyNot: never,
+        run: toggleSection,
     }),
     row({
         id: "view.outlines",

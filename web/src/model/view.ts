@@ -7,6 +7,7 @@ import { PIVOTS, type Pivot, SPACES, type Space } from "./hands.ts";
 import type { Operation } from "./operation.ts";
 import type { ListName, RecordName } from "./places.ts";
 import { WAY_NAMES, type Way } from "./placing.ts";
+import type { Section } from "./section.ts";
 import type { Vector } from "./transform.ts";
 
 export type Theme = "auto" | "light" | "dark";
@@ -118,6 +119,8 @@ export interface View {
     readonly collapsed: ReadonlySet<string>;
     /* Ids of nodes that this page shows alone; empty: it shows all. */
     readonly isolated: readonly string[];
+    /* What cuts this page's pictures; null: nothing. */
+    readonly section: Section | null;
     /* What this page shows as if it were so: no edit. */
     readonly trial: Trial | null;
     /* The node whose name is being typed. */
@@ -152,6 +155,7 @@ export const INITIAL_VIEW: View = {
     hovered: null,
     collapsed: new Set(),
     isolated: [],
+    section: null,
     trial: null,
     renaming: null,
     popup: null,
@@ -235,6 +239,9 @@ export function peel(view: View): Partial<View> | null {
     }
     if (view.subject.kind !== "nodes") {
         return { subject: { kind: "nodes" } };
+    }
+    if (view.section !== null) {
+        return { section: null };
     }
     if (view.isolated.length > 0) {
         return { isolated: [] };

@@ -15,6 +15,7 @@ import {
     whyNotPicture,
 } from "../../model/picture.ts";
 import { findParam, limitOf, numberParam, valueIn } from "../../model/schema.ts";
+import { sectionMember } from "../../model/section.ts";
 import type { Editor } from "../editor.ts";
 import { EnumField } from "../fields/Enum.tsx";
 import { FlagField } from "../fields/Flag.tsx";
@@ -244,7 +245,7 @@ function summary(choice: PictureChoice) {
     return { width, height, extension: extensionOf(choice).toUpperCase() };
 }
 
-/* From where the view is seen from. */
+/* From where the view is seen from, cut as it is. */
 async function save(editor: Editor, choice: PictureChoice, signal: AbortSignal): Promise<void> {
     const { scene, document } = editor.stores.document.getState();
     const { camera, own } = editor.stores.camera.getState();
@@ -253,6 +254,7 @@ async function save(editor: Editor, choice: PictureChoice, signal: AbortSignal):
         ...rest,
         ...(level === null ? {} : { level }),
         ...(own ? { camera: printCamera(camera) } : {}),
+        ...sectionMember(editor.stores.view.getState().section),
     });
     const blob = await editor.rest.fetchFile(url, signal);
     download(String(document?.info.name ?? scene), extensionOf(choice), blob);

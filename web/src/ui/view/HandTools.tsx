@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the gizmo does, which way its axes point, and whether it goes in steps; measuring, the grid. */
+/* What the gizmo does, which way its axes point, and whether it goes in steps; measuring, a section, the grid. */
 import {
     ChevronDown,
     Grid3x3,
@@ -8,6 +8,7 @@ import {
     Rotate3d,
     Ruler,
     Scale3d,
+    SquareSplitHorizontal,
 } from "lucide-react";
 import { changeHands } from "../../model/actions.ts";
 import { commandById, runCommand } from "../../model/commandLookup.ts";
@@ -26,6 +27,7 @@ export function HandTools() {
     const { tool, space, snap } = useView((view) => view.preferences.hands);
     const grid = useView((view) => view.preferences.grid);
     const measuring = useView((view) => view.measured !== null);
+    const cut = useView((view) => view.section !== null);
     return (
         <div className="glass hand-tools" role="toolbar" aria-label={t("hands.tools")}>
             {MOTIONS.map((motion) => (
@@ -42,6 +44,12 @@ export function HandTools() {
                 text={t("measure.title")}
                 pressed={measuring}
                 Icon={Ruler}
+            />
+            <Tool
+                command="view.section"
+                text={t("section.title")}
+                pressed={cut}
+                Icon={SquareSplitHorizontal}
             />
             <Tool command="view.grid" text={t("grid.title")} pressed={grid} Icon={Grid3x3} />
             <Menu

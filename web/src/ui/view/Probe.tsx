@@ -9,6 +9,7 @@ import { distanceAt, surfaceAt } from "../../model/distances.ts";
 import { nodeLabel } from "../../model/document.ts";
 import { nodeAt, shownGuide } from "../../model/guide.ts";
 import { projectionOf, type Spot } from "../../model/projection.ts";
+import { sectionMember } from "../../model/section.ts";
 import type { Vector } from "../../model/transform.ts";
 import { COLOR } from "../../model/view.ts";
 import { shownCamera } from "../../overlay/shown.ts";
@@ -42,6 +43,7 @@ async function valuesAt(
         format: "npy",
         outputs: [stores.view.getState().aov],
         camera: printCamera(stores.camera.getState().camera),
+        ...sectionMember(stores.view.getState().section),
     });
     return readNpy(await (await rest.fetchFile(address, signal)).arrayBuffer());
 }

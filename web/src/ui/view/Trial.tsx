@@ -5,6 +5,7 @@ import { useEffect, useState } from "react";
 import { printCamera } from "../../model/camera.ts";
 import { printDocument } from "../../model/documentJson.ts";
 import { apply } from "../../model/operations.ts";
+import { sectionMember } from "../../model/section.ts";
 import type { Trial as TrialRequest } from "../../model/view.ts";
 import type { Editor } from "../editor.ts";
 import { useEditor, useView } from "../state.ts";
@@ -38,6 +39,7 @@ async function draw(
             format: "jpg",
             level: "interactive",
             camera: printCamera(editor.stores.camera.getState().camera),
+            ...sectionMember(editor.stores.view.getState().section),
         },
         signal,
     );

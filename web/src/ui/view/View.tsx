@@ -31,6 +31,7 @@ import "./view.css";
 
 const Drops = lazyPart(() => import("../drop/Drops.tsx"));
 const UnderMenu = lazyPart(() => import("./UnderMenu.tsx"));
+const Section = lazyPart(() => import("./Section.tsx"));
 const StatisticsPill = lazyPart(() => import("./Statistics.tsx"));
 
 export function View() {
@@ -54,6 +55,7 @@ export function View() {
             <div className="view-bottom">
                 <Aim />
                 <Measured />
+                <Section />
                 <Isolation />
                 <Hint />
                 <div className="view-pills">

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT */
+/* A plane across an axis that cuts this page's pictures: no edit, and nobody else sees it. */
+import type { Ball } from "./camera.ts";
+import type { JsonObject } from "./json.ts";
+import type { Vector } from "./transform.ts";
+
+export const SECTION_AXES = ["x", "y", "z"] as const;
+export type SectionAxis = (typeof SECTION_AXES)[number];
+
+export interface Section {
+    readonly axis: SectionAxis;
+    /* Where the plane is along the axis. */
+    readonly at: number;
+    /* What has less than `at` is left out; else what has more. */
+    readonly flipped: boolean;
+}
+
+/* As requests have it. */
+export function printSection({ axis, at, flipped }: Section): JsonObject {
+    const sign = flipped ? -1 : 1;
+    return {
+        normal: SECTION_AXES.map((one) => (one === axis ? sign : 0)),
+        offset: sign * at,
+    };
+}
+
+/* The member of a request; none where nothing is cut. */
+export const sectionMember = (section: Section | null): { section?: JsonObject } =>
+    section === null ? {} : { section: printSection(section) };
+
+/* Through the middle of a ball, across the axis along which it is looked at most, so that the eye
+ * looks at the cut. */
+export function sectionSeenFrom(eye: Vector, { center }: Ball): Section {
+    const apart = SECTION_AXES.map((_, i) => (eye[i] ?? 0) - (center[i] ?? 0));
+    const most = Math.max(...apart.map(Math.abs));
+    const i = Math.max(
+        0,
+        apart.findIndex((x) => Math.abs(x) === most),
+    );
+    return across(SECTION_AXES[i] ?? "x", (apart[i] ?? 0) < 0, center);
+}
+
+const across = (axis: SectionAxis, flipped: boolean, center: Vector): Section => ({
+    axis,
+    at: center[SECTION_AXES.indexOf(axis)] ?? 0,
+    flipped,
+});
+
+/* The same across another axis, through the middle again. */
+export function sectionAcross(section: Section, axis: SectionAxis, { center }: Ball): Section {
+    return section.axis === axis ? section : across(axis, section.flipped, center);
+}
+
+/* Where planes across an axis cut the ball. */
+export function sectionRange(axis: SectionAxis, { center, radius }: Ball) {
+    const middle = center[SECTION_AXES.indexOf(axis)] ?? 0;
+    return { low: middle - radius, high: middle + radius };
+}
