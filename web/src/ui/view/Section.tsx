@@ -38,7 +38,7 @@ function Controls({ section }: { section: Cut }) {
     const { low, high } = sectionRange(section.axis, ball);
     const set = (next: Cut | null): void => stores.view.setState({ section: next });
     return (
-        <fieldset className="glass pill section" data-testid="section">
+        <fieldset className="glass pill section-bar" data-testid="section">
             <legend className="unseen">{t("section.title")}</legend>
             <SquareSplitHorizontal size={14} aria-hidden="true" />
             {SECTION_AXES.map((axis) => (
