@@ -96,6 +96,18 @@ function checkLoops(files) {
     search(files.filter((file) => file === 'renderer/field/shader.c'), new RegExp(`"[^"]*?(?:${loop})`), see);
 }
 
+// All style sheets are one on the page: rules for a class of the same name would meet.
+function checkClasses(files) {
+    const homes = new Map();
+    search(files.filter((file) => /^web\/src\/.*\.css$/.test(file)), /^\.([a-z][a-z0-9-]*)(?= \{|,$)/, ([, name], file, line) => {
+        const home = homes.get(name) ?? file;
+        homes.set(name, home);
+        if (home !== file) {
+            report(file, line, 'class', `.${name} has rules in ${home} too: it wants a name of its own`);
+        }
+    });
+}
+
 // protocol/ is pure: it prints only where error.c is handed a stream.
 function checkPurity(files) {
     const own = files.filter((file) => /^protocol\/.*\.c$/.test(file));
@@ -314,6 +326,7 @@ if (checkDrawing(root, report)) {
 }
 checkBindings(files);
 checkLoops(files);
+checkClasses(files);
 checkSwizzles(files);
 checkPurity(files);
 checkImports(files, search, report);

@@ -29,6 +29,7 @@ const CLEAN = {
     'web/src/model/document.ts': `${TS}import { b } from './operations';\n`,
     'web/src/link/link.ts': `${TS}import { b } from '../model/operations';\n`,
     'web/src/ui/App.tsx': `${TS}import React from 'react';\nimport { l } from '../link/link';\n`,
+    'web/src/ui/app.css': `${C}.bar {\n    color: red;\n}\n`,
     'deploy/run.sh': `#!/bin/sh\n# SPDX-License-Identifier: MIT\necho hello\n`,
     'README.md': '# text\n',
 };
@@ -67,6 +68,7 @@ const BREAKS = [
     ['binding', 'renderer/glsl/march.glsl', `${C}layout(location = 10) in float a;\n`],
     ['swizzle', 'renderer/glsl/march.glsl', `${C}int f() { return frame.effects.w; }\n`],
     ['swizzle', 'renderer/glsl/march.glsl', `${C}int f() { return args.first[1]; }\n`],
+    ['class', 'web/src/ui/view.css', `${C}.bar,\n.foo {\n    color: red;\n}\n`],
     ['endless', 'renderer/glsl/march.glsl', `${C}void f()\n{\n    while (rest > 0.0) {\n    }\n}\n`],
     ['endless', 'renderer/glsl/march.glsl', `${C}void f()\n{\n    for (float x = 1.0; x > 0.0; x -= 1.0) {\n    }\n}\n`],
     ['endless', 'renderer/field/shader.c', `${C}void f(void)\n{\n    fputs("for (float x = 1.0;", out);\n}\n`],
