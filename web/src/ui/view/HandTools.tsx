@@ -83,6 +83,7 @@ function Tool({ command: id, text, pressed, Icon }: ToolProps) {
             <button
                 type="button"
                 className="pill"
+                data-command={id}
                 aria-label={text}
                 aria-pressed={pressed}
                 onClick={() => command && runCommand(editor, command)}
