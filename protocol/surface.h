@@ -31,8 +31,8 @@ enum surface_method {
 extern const char *const surface_methods[]; /* NULL at the end */
 #define SURFACE_METHOD_DOC                                                                         \
     "By linear algebra, by resultants, or by a Groebner basis: of the graded ideal, or of the "    \
-    "one "                                                                                         \
-    "with a letter that stands for 1 / denominator."
+    "one with a letter that stands for 1 / denominator."
+
 struct record_type;
 /* What is asked beside the parts: `method`, one of these. */
 extern const struct record_type surface_question_type;

@@ -11,7 +11,7 @@ const build = path.resolve(process.argv[2]);
 const kept = path.join(build, 'speeds.json');
 const folder = path.join(path.dirname(new URL(import.meta.url).pathname), 'bench');
 
-/** How many times as many pictures as chromium's WebGL the seed of this product measured. */
+/** So many pictures are wanted for each of chromium's WebGL. */
 const GOAL = 10;
 
 function measureAll() {

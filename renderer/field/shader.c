@@ -255,9 +255,9 @@ static void write_domain_call(const struct shader_writer *w, const struct field_
     fprintf(w->out, ");\n");
 }
 
-/* Which kind of surface a cell gives is known only at the end, so both kinds start empty. The count
- * ends for every number that may come, since a GPU waits for a loop without an end: where there are
- * only zeros, a program that is warmed up finds no number of cells. */
+/* Which kind of surface a cell gives is known only at the end, so both kinds start empty. The loop
+ * ends whatever the buffer holds: a program is warmed up with zeros, for which the count is not a
+ * number, and a loop without an end hangs a GPU. */
 static void write_loop(const struct shader_writer *w, const struct field_instruction *in,
                        size_t name)
 {

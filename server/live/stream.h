@@ -44,9 +44,8 @@ enum {
 };
 
 struct stream_view {
-    uint32_t seq; /* `picture.values` is NULL: there was no view yet */
-    struct render_request
-        picture; /* the whole view: its size, camera, output, what it leaves out */
+    uint32_t seq;                  /* `picture.values` is NULL: there was no view yet */
+    struct render_request picture; /* the whole view, with what it leaves out */
     enum stream_preference preference;
     bool visible;
     bool guides; /* wants to know which node each pixel shows, and how far */

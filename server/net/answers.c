@@ -113,8 +113,7 @@ struct answer *answers_add(struct answers *answers, const char *client,
         charge(answers, payer, more);
     }
     if (room && shared) {
-        shared->payer = more > 0 ? payer : shared->payer;
-        shared->answers++;
+        shared->payer = shared->answers++ == 0 ? payer : shared->payer;
     }
     pthread_mutex_unlock(&answers->lock);
     if (!room) {
