@@ -41,7 +41,7 @@ modules := $(foreach l,$(LIBRARIES),$(firstword $(subst :, ,$(l))))
 
 config_release = -O2 -g $(hardening)
 config_debug := -Og -g3
-config_asan := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all
+config_asan := -O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all
 config_tsan := -O1 -g -fsanitize=thread
 config_cov := -O0 -g --coverage
 link_release := -pie -Wl,-z,relro,-z,now,-z,noexecstack

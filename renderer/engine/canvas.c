@@ -41,7 +41,7 @@ void engine_canvas_destroy(struct engine_canvas *canvas)
         return;
     }
     for (int i = 0; i < ENGINE_THREADS; i++) {
-        cells_finish(canvas->cells[i]);
+        canvas->picture.program->width->hand_destroy(canvas->hands[i]);
     }
     free(canvas->pixels);
     free(canvas->counted);

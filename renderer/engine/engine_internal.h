@@ -126,10 +126,11 @@ struct call_row {
 enum { ENGINE_SPACES = 3, ENGINE_THREADS = 64 };
 void cells_finish(struct cells spaces[ENGINE_SPACES]);
 
+struct hand; /* what a thread draws with: threads.c, tile.c */
 struct engine_canvas {
     struct engine_picture picture;
-    struct cells cells[ENGINE_THREADS][ENGINE_SPACES]; /* of each thread */
-    struct engine_rect kept;                           /* width 0: nothing is */
+    struct hand *hands[ENGINE_THREADS]; /* each is made when it is first needed */
+    struct engine_rect kept;            /* width 0: nothing is */
     float *pixels, *counted; /* sums of the kept: four and two for each (glsl/sums.glsl) */
 };
 
@@ -148,6 +149,7 @@ struct engine_width {
     const struct call_row *calls;
     size_t call_count;
     uint64_t (*draw)(struct engine_canvas *canvas, const struct engine_work *work);
+    void (*hand_destroy)(struct hand *hand); /* NULL is nothing */
     uint64_t (*distances)(const struct engine_program *program, const float *params,
                           const float (*points)[3], size_t count, float half, float *out);
     /* A level of one of the pictures; all but the first are made of that. */

@@ -17,14 +17,13 @@ struct crew {
     cpu_set_t anywhere, elsewhere; /* processors: this process's; all but that of the caller */
 };
 
-static struct hand *hand_create(struct crew *crew)
+static struct hand *hand_create(const struct engine_canvas *canvas, int threads)
 {
-    const struct engine_picture *picture = &crew->canvas->picture;
+    const struct engine_picture *picture = &canvas->picture;
     struct hand *hand = aligned_room(sizeof *hand);
 
-    memset(hand, 0, sizeof *hand);
-    hand->canvas = crew->canvas;
-    hand->work = crew->work;
+    memset(hand, 0, offsetof(struct hand, starts));
+    hand->canvas = canvas;
     hand->scene.material_base = picture->program->scene.material_base;
     hand->scene.material_stride = picture->program->scene.material_stride;
     struct lanes *c = &hand->lanes;
@@ -37,8 +36,8 @@ static struct hand *hand_create(struct crew *crew)
     c->tile = (struct lanes_tile){SIDE, hand->geometry, hand->pixels, hand->counted};
     c->frames = frames_create(c->program);
     c->machine = aligned_room(sizeof *c->machine);
-    c->threads = crew->threads;
-    c->spaces = crew->canvas->cells[atomic_fetch_add(&crew->next_thread, 1)];
+    c->threads = threads;
+    c->spaces = hand->spaces;
     for (int i = 0; i < ENGINE_SPACES; i++) {
         c->cells = &c->spaces[i];
         cells_begin(c);
@@ -49,9 +48,26 @@ static struct hand *hand_create(struct crew *crew)
 
 static void hand_destroy(struct hand *hand)
 {
+    if (!hand) {
+        return;
+    }
     frames_destroy(hand->lanes.program, hand->lanes.frames);
     free(hand->lanes.machine);
+    cells_finish(hand->spaces);
     free(hand);
+}
+
+/* The canvas's next: what it knows of the field is worth keeping from tile to tile. */
+static struct hand *hand_of(struct crew *crew)
+{
+    struct hand **hand = &crew->canvas->hands[atomic_fetch_add(&crew->next_thread, 1)];
+
+    if (!*hand) {
+        *hand = hand_create(crew->canvas, crew->threads);
+    }
+    (*hand)->work = crew->work;
+    (*hand)->rays = 0;
+    return *hand;
 }
 
 static int smaller(int a, int b)
@@ -63,7 +79,7 @@ static void *take_tiles(void *argument)
 {
     struct crew *crew = argument;
     const struct engine_rect tile = crew->work->tile;
-    struct hand *hand = hand_create(crew);
+    struct hand *hand = hand_of(crew);
 
     for (int i = atomic_fetch_add(&crew->next_tile, 1); i < crew->count;
          i = atomic_fetch_add(&crew->next_tile, 1)) {
@@ -72,7 +88,6 @@ static void *take_tiles(void *argument)
                   smaller(crew->side, tile.height - y));
     }
     atomic_fetch_add(&crew->rays, hand->rays);
-    hand_destroy(hand);
     return NULL;
 }
 

@@ -16,14 +16,15 @@ struct hand {
     struct lanes lanes;
     struct dispatch_block dispatch;
     struct scene_block scene;
+    struct cells spaces[ENGINE_SPACES];
     const struct engine_canvas *canvas;
     const struct engine_work *work;
+    uint64_t rays; /* that followed others */
     int left, top, width, height;
     struct engine_rect inner;
     float starts[BLOCKS * BLOCKS]; /* how far the rays of each block are free */
     float geometry[SIDE * SIDE * 4], pixels[SIDE * SIDE * 4], counted[SIDE * SIDE * 2];
     int listed[SIDE * SIDE], listed_count;
-    uint64_t rays; /* that followed others */
 };
 
 /* Of pixels of the tile. Blocks are those of the picture, whatever the tile. */

@@ -37,5 +37,6 @@ const struct engine_width NAME(LANES) = {LANES,
                                          calls,
                                          sizeof calls / sizeof calls[0],
                                          draw,
+                                         hand_destroy,
                                          distances,
                                          make_map};

@@ -93,8 +93,9 @@ static void every_command_reads_its_defaults(void **state)
     for (int i = 0; i < COMMAND_COUNT; i++) {
         const struct command *command = command_at((enum command_id)i);
         assert_ptr_equal(command_find(command->name), command);
-        char *operand[] = {"x", NULL};
-        if (!read_as(command->name, command->operands ? operand : no_arguments)) {
+        char *operands[] = {"x", "y", "z", NULL};
+        operands[command->exactly ? command->exactly : 1] = NULL;
+        if (!read_as(command->name, command->operands ? operands : no_arguments)) {
             fail_msg("%s: %s: %s", command->name, err.place, err.message);
         }
     }
