@@ -3,6 +3,7 @@
 // name or with a clear reason, no process is left, and the viewer of another scene gets a new frame
 // while each question is open.
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import { after, before, test } from 'node:test';
 import { ask, childrenOf, startDaemon, until } from '../support/daemon.mjs';
@@ -189,6 +190,9 @@ test('a surface that takes too long: frames come until it is ended by its limit'
         await seesFrame();
     }
     assert.equal(answered, false, 'it was answered before: take a longer surface');
+    const [pid] = algebraLeft();
+    assert.match(fs.readFileSync(`/proc/${pid}/limits`, 'utf8'), /^Max cpu time +30 /m);
+    execFileSync('prlimit', ['--pid', pid, '--cpu=2']); // its end comes sooner
     const answer = await asked;
     assert.equal(answer.status, 503);
     assert.match((await answer.json()).detail, /over 30 s of processor time \(algebra_seconds\)/);

@@ -43,6 +43,16 @@ const SURFACES = [
 const implicitize = (texts, ...options) =>
     JSON.parse(execFileSync(program, ['implicitize', ...options, '--', ...texts], { encoding: 'utf8' }));
 
+// By the road that the program takes itself: asked once for each surface.
+const answers = new Map();
+function usual(texts) {
+    const key = texts.join('\n');
+    if (!answers.has(key)) {
+        answers.set(key, implicitize(texts));
+    }
+    return answers.get(key);
+}
+
 // The language of equations as JavaScript: products that are not written, powers, functions of Math.
 function compile(text, names) {
     const code = text
@@ -73,7 +83,7 @@ function points(texts, count) {
 
 for (const [name, texts, degree, terms] of SURFACES) {
     test(`${name}: its equation and certificate`, () => {
-        const { equation, certificate } = implicitize(texts);
+        const { equation, certificate } = usual(texts);
         assert.equal(certificate.degree, degree);
         assert.equal(certificate.identity, 'exact');
         assert.equal(certificate.irreducible, true);
@@ -92,7 +102,7 @@ for (const [name, texts, degree, terms] of SURFACES) {
 const patches = ['biquadratic patch', 'cubic triangle', 'bicubic patch'];
 const TOO_HARD = {
     resultant: ['Henneberg', 'bicubic patch'],
-    groebner: ['Klein bottle', 'Henneberg', 'cubic triangle', 'bicubic patch'],
+    groebner: ['Roman surface', 'Klein bottle', 'Henneberg', 'cubic triangle', 'bicubic patch'],
     saturation: ['Roman surface', 'cross-cap', 'Moebius strip', 'Klein bottle', 'Henneberg', ...patches],
 };
 for (const [method, hard] of Object.entries(TOO_HARD)) {
@@ -101,7 +111,7 @@ for (const [method, hard] of Object.entries(TOO_HARD)) {
         assert.equal(easy.length, SURFACES.length - hard.length);
         for (const [name, texts] of easy) {
             const { equation, certificate } = implicitize(texts, '--method', method);
-            assert.equal(equation, implicitize(texts).equation, name);
+            assert.equal(equation, usual(texts).equation, name);
             assert.equal(certificate.method, method);
             assert.equal(certificate.pairs !== undefined, method !== 'resultant', name);
         }
@@ -111,7 +121,7 @@ for (const [method, hard] of Object.entries(TOO_HARD)) {
 const torus = SURFACES.find(([name]) => name === 'torus')[1];
 
 test('a coefficient that is one off is seen by the oracle', () => {
-    const wrong = implicitize(torus).equation.replace('10*x^2', '11*x^2');
+    const wrong = usual(torus).equation.replace('10*x^2', '11*x^2');
     assert.ok(points(torus, 20).some((point) => residual(wrong, point) > 1e-3));
 });
 

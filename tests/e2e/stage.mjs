@@ -225,15 +225,19 @@ export async function keepsOff(one, others) {
 
 /** Waits until everything is saved and the lossless picture of that revision is shown. */
 export const settled = (page) =>
-    page.waitForFunction(() => {
-        const saved = document.querySelector('[data-testid=saved]')?.dataset;
-        const shown = document.querySelector('[data-testid=state]')?.dataset;
-        return (
-            saved?.state === 'saved' &&
-            shown?.state === 'final' &&
-            shown.revision === saved.revision
-        );
-    });
+    page.waitForFunction(
+        () => {
+            const saved = document.querySelector('[data-testid=saved]')?.dataset;
+            const shown = document.querySelector('[data-testid=state]')?.dataset;
+            return (
+                saved?.state === 'saved' &&
+                shown?.state === 'final' &&
+                shown.revision === saved.revision
+            );
+        },
+        undefined,
+        { polling: 50 }, // by itself it makes the browser draw all the time
+    );
 export const waitForSaved = (page) =>
     page.locator('[data-testid=saved][data-state=saved]').waitFor();
 

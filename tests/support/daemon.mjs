@@ -23,12 +23,17 @@ let news = 0;
 /** Something was received: who waits goes on waiting. */
 export const heard = () => (news += 1);
 
-/** Asks until the answer is true, or the daemon and whatever else this process started hang. */
+/**
+ * Asks until the answer is true, or the daemon and whatever else this process started hang. Half of the
+ * time is left to those who work for it.
+ */
 export async function until(question, what) {
     const start = Date.now();
     let patience = null;
     for (let known = news; ; ) {
+        const asked = Date.now();
         const answer = await question();
+        const took = Date.now() - asked;
         if (answer) {
             return answer;
         }
@@ -46,7 +51,7 @@ export async function until(question, what) {
                 throw new Error(`waited in vain for ${what}: ${reason}\n${patience}`);
             }
         }
-        await sleep(patience ? ASK_LATER_MS : ASK_MS);
+        await sleep(Math.max(took, patience ? ASK_LATER_MS : ASK_MS));
     }
 }
 
