@@ -3,6 +3,7 @@
 #include "memory.h"
 
 #include <cjson/cJSON.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,14 +49,19 @@ char *memory_text(const char *text)
     return memcpy(memory_alloc(bytes, 1), text, bytes);
 }
 
+void *memory_one_more(void *items, size_t count, size_t size)
+{
+    const bool full = (count & (count - 1)) == 0;
+
+    return full ? memory_resize(items, count ? 2 * count : 1, size) : items;
+}
+
 void *memory_open_slot(void *items, size_t count, size_t position)
 {
-    if ((count & (count - 1)) == 0) {
-        items = memory_resize(items, count ? 2 * count : 1, sizeof(void *));
-    }
-    void **slots = items;
+    void **slots = memory_one_more(items, count, sizeof *slots);
+
     memmove(slots + position + 1, slots + position, (count - position) * sizeof *slots);
-    return items;
+    return slots;
 }
 
 void memory_close_slot(void *items, size_t count, size_t position)

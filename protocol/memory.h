@@ -11,8 +11,11 @@ void *memory_alloc(size_t count, size_t size);
 void *memory_resize(void *block, size_t count, size_t size);
 char *memory_text(const char *text);
 
-/* A list of pointers that grows by itself: its room is the next power of two. Returns `items` with
- * a free slot at `position`, for `count` + 1 pointers. */
+/* A list that grows by itself: its room is the next power of two. Returns `items` with room for one
+ * behind the `count` that there are. */
+void *memory_one_more(void *items, size_t count, size_t size);
+
+/* The same of pointers, with a free slot at `position`. */
 void *memory_open_slot(void *items, size_t count, size_t position);
 void memory_close_slot(void *items, size_t count, size_t position);
 

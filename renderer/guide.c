@@ -93,7 +93,7 @@ static uint16_t index_of(struct guide *guide, uint32_t number)
     }
     if (guide->indices[number] == 0 && guide->node_count < MOST_NODES &&
         field_leaf_id(guide->field, number)) {
-        guide->nodes = memory_resize(guide->nodes, guide->node_count + 1, sizeof *guide->nodes);
+        guide->nodes = memory_one_more(guide->nodes, guide->node_count, sizeof *guide->nodes);
         guide->nodes[guide->node_count++] = number;
         guide->indices[number] = (uint16_t)guide->node_count;
     }

@@ -187,8 +187,8 @@ void renderer_judge(struct renderer *renderer, const struct renderer_verdict *ve
         renderer_find_verdict(renderer, verdict->structure_hash, verdict->image);
 
     if (!known) {
-        renderer->verdicts = memory_resize(renderer->verdicts, renderer->verdict_count + 1,
-                                           sizeof *renderer->verdicts);
+        renderer->verdicts = memory_one_more(renderer->verdicts, renderer->verdict_count,
+                                             sizeof *renderer->verdicts);
         known = &renderer->verdicts[renderer->verdict_count++];
     }
     *known = *verdict;

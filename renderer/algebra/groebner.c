@@ -188,7 +188,7 @@ static void add_pair(struct groebner *g, enum pair_strategy strategy, const stru
             to = middle;
         }
     }
-    g->pairs = memory_resize(g->pairs, g->waiting + 1, sizeof *g->pairs);
+    g->pairs = memory_one_more(g->pairs, g->waiting, sizeof *g->pairs);
     memmove(&g->pairs[from + 1], &g->pairs[from], (g->waiting - from) * sizeof *g->pairs);
     g->pairs[from] = *pair;
     g->waiting++;

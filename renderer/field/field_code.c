@@ -29,7 +29,7 @@ static uint64_t hash_code(const char *text, const struct param *params)
 
 static struct field_code *append(struct field_code **list, size_t *count)
 {
-    *list = memory_resize(*list, *count + 1, sizeof **list);
+    *list = memory_one_more(*list, *count, sizeof **list);
     struct field_code *last = &(*list)[(*count)++];
     *last = (struct field_code){0};
     return last;

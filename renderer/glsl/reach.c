@@ -177,7 +177,7 @@ static struct items read_items(const char *text)
             read_declaration(&item);
         }
         text = item.whole.end = *item.text.begin == '#' ? item.text.end : skip_line(item.text.end);
-        items.at = memory_resize(items.at, items.count + 1, sizeof *items.at);
+        items.at = memory_one_more(items.at, items.count, sizeof *items.at);
         items.at[items.count++] = item;
     }
     return items;

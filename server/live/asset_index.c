@@ -18,7 +18,7 @@ void asset_index_add(void *data, const struct store_asset *asset)
     if (asset_index_find(assets, asset->id)) {
         return;
     }
-    assets->items = memory_resize(assets->items, assets->count + 1, sizeof *assets->items);
+    assets->items = memory_one_more(assets->items, assets->count, sizeof *assets->items);
     entry = &assets->items[assets->count++];
     assets->bytes += example_files_find(asset->id) ? 0 : asset->length;
     *entry = (struct asset_entry){
@@ -103,8 +103,7 @@ static struct shared_buffer *find_loaded(const struct asset_index *assets, const
 
 static void keep_loaded(struct asset_index *assets, const char *id, struct shared_buffer *bytes)
 {
-    assets->loaded =
-        memory_resize(assets->loaded, assets->loaded_count + 1, sizeof *assets->loaded);
+    assets->loaded = memory_one_more(assets->loaded, assets->loaded_count, sizeof *assets->loaded);
     struct asset_loaded *loaded = &assets->loaded[assets->loaded_count++];
     snprintf(loaded->id, sizeof loaded->id, "%s", id);
     loaded->bytes = shared_buffer_ref(bytes);

@@ -73,7 +73,7 @@ static struct library_item *place(struct library *library, const char *id)
         library->bytes -= strlen(library->items[at].text);
         item_finish(&library->items[at]);
     } else {
-        library->items = memory_resize(library->items, library->count + 1, sizeof *library->items);
+        library->items = memory_one_more(library->items, library->count, sizeof *library->items);
         memmove(library->items + at + 1, library->items + at,
                 (library->count - at) * sizeof *library->items);
         library->count++;

@@ -89,7 +89,7 @@ static void document_row(void *data, sqlite3_stmt *statement)
 static struct store_edit *add_edit(struct store_edit **edits, size_t *count,
                                    sqlite3_stmt *statement)
 {
-    *edits = memory_resize(*edits, *count + 1, sizeof(**edits));
+    *edits = memory_one_more(*edits, *count, sizeof(**edits));
     struct store_edit *edit = &(*edits)[(*count)++];
     *edit = (struct store_edit){
         .revision = (uint64_t)sqlite3_column_int64(statement, 0),
@@ -157,7 +157,7 @@ static void author_row(void *data, sqlite3_stmt *statement)
     struct store_loaded *loaded = data;
 
     loaded->authors =
-        memory_resize(loaded->authors, loaded->author_count + 1, sizeof *loaded->authors);
+        memory_one_more(loaded->authors, loaded->author_count, sizeof *loaded->authors);
     struct store_author *author = &loaded->authors[loaded->author_count++];
     column_id(statement, 0, author->author);
     author->edit = sqlite3_column_int64(statement, 1);
