@@ -65,6 +65,7 @@ struct draw *draw_create(const struct gl *gl, bool software, int tile_side)
 
     draw->gl = gl;
     draw->software = software;
+    draw->cubes = engine_cubes_create();
     draw->side = tile_side > 0 ? tile_side : software ? TILE_SOFTWARE : TILE_GPU;
     return draw;
 }
@@ -94,6 +95,7 @@ void draw_destroy(struct draw *draw)
     if (draw->prepared[SHADER_FRAGMENT]) {
         draw_fragment_finish(draw);
     }
+    engine_cubes_destroy(draw->cubes);
     free(draw);
 }
 

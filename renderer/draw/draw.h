@@ -48,8 +48,8 @@ struct draw_scene {
     struct program *program;
     const struct param_buffer *params;
     struct environment *environment;
-    const float *values;                 /* the numbers in memory */
-    const struct engine_program *engine; /* NULL: it cannot draw this */
+    const float *values;           /* the numbers in memory */
+    struct engine_program *engine; /* NULL: it cannot draw this */
 };
 
 enum { DRAW_MARKS = 256 }; /* moments taken in a tile; what is beyond counts with the last */

@@ -39,23 +39,24 @@ static bool begin(struct draw *draw, struct draw_picture *picture, const struct 
     const struct render_settings *settings = &picture->settings;
     const enum program_stage last = draw_last_stage(picture);
 
-    (void)draw;
     (void)err;
     picture->block = memory_alloc(1, sizeof *block);
     *picture->block = *block;
-    picture->canvas = engine_canvas_create(&(struct engine_picture){
-        .program = scene->engine,
-        .params = scene->values,
-        .frame = picture->block,
-        .maps = {&maps[0], &maps[1], &maps[2]},
-        .smoothing = smoothing_of(settings),
-        .margin = draw_margin(settings),
-        .rays = settings->rays,
-        .transmission_depth = block->has_transmissive ? settings->transmission_depth : 0,
-        .shadows = last >= STAGE_SHADOW,
-        .lights = last == STAGE_COUNT,
-        .sparse = is_sparse(picture),
-    });
+    picture->canvas = engine_canvas_create(
+        draw->cubes,
+        &(struct engine_picture){
+            .program = scene->engine,
+            .params = scene->values,
+            .frame = picture->block,
+            .maps = {&maps[0], &maps[1], &maps[2]},
+            .smoothing = smoothing_of(settings),
+            .margin = draw_margin(settings),
+            .rays = settings->rays,
+            .transmission_depth = block->has_transmissive ? settings->transmission_depth : 0,
+            .shadows = last >= STAGE_SHADOW,
+            .lights = last == STAGE_COUNT,
+            .sparse = is_sparse(picture),
+        });
     return true;
 }
 

@@ -19,6 +19,7 @@ struct draw {
     uint64_t compilations;
     uint64_t rays[DRAW_SETS]; /* by compute shaders */
     uint64_t more_rays;       /* by others */
+    struct engine_cubes *cubes;
 };
 
 /* What draws a picture's tiles. Each is called by the function of draw.h that is named alike. */

@@ -1,18 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 
-#include "engine_internal.h"
+#include "cubes.h"
 #include "protocol/memory.h"
 
 /* In larger fields rays that are far apart share no tape: a sparse picture of the temple (245)
  * takes as long as one of all rays, one of the snowman (84) less. */
 enum { SPARSE_OPERATIONS = 128 };
 
-struct engine_canvas *engine_canvas_create(const struct engine_picture *picture)
+struct engine_canvas *engine_canvas_create(struct engine_cubes *cubes,
+                                           const struct engine_picture *picture)
 {
     struct engine_canvas *canvas = memory_alloc(1, sizeof *canvas);
 
     canvas->picture = *picture;
+    canvas->keeper = cubes;
+    canvas->cubes =
+        cubes_take(cubes, picture->program, picture->params, &canvas->numbers, &canvas->number);
     canvas->picture.sparse &= picture->program->count <= SPARSE_OPERATIONS;
     return canvas;
 }
@@ -43,6 +47,7 @@ void engine_canvas_destroy(struct engine_canvas *canvas)
     for (int i = 0; i < ENGINE_THREADS; i++) {
         canvas->picture.program->width->hand_destroy(canvas->hands[i]);
     }
+    cubes_give(canvas->keeper, canvas->picture.program, canvas->numbers, canvas->cubes);
     free(canvas->pixels);
     free(canvas->counted);
     free(canvas);

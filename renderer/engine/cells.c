@@ -66,14 +66,18 @@ static float root_half(const struct frame_uniforms *frame)
     return ldexpf(1.0f, exponent);
 }
 
+/* For a picture. Those of another one stay while the root is as large. */
 static void cells_begin(struct lanes *c)
 {
     struct cells *cells = c->cells;
+    const float half = root_half(c->frame);
 
-    if (cells->count) {
-        return; /* the picture's other tiles made them */
-    }
     cells->last = 0;
+    if (cells->count && cells->at[0].half == half) {
+        cells->at[0].picture = c->picture;
+        return;
+    }
+    cells->count = 0;
     cells->used = cells->drops_used = 0;
     tape_room(cells, c->program->count);
     for (size_t i = 0; i < c->program->count; i++) {
@@ -81,11 +85,12 @@ static void cells_begin(struct lanes *c)
     }
     struct cell *root = cell_add(cells);
     *root = (struct cell){.bits = GRID_BITS,
-                          .half = root_half(c->frame),
+                          .half = half,
                           .count = (uint32_t)c->program->count,
                           .parent = -1,
                           .made = true,
-                          .splits = c->program->count > CELL_SHORT};
+                          .splits = c->program->count > CELL_SHORT,
+                          .picture = c->picture};
     cells->grid = (float)(1 << (GRID_BITS - 1)) / root->half;
     for (int i = 0; i < 3; i++) {
         root->centre[i] = (float)((1 << (GRID_BITS - 1)) - GRID_ORIGIN) / cells->grid;
@@ -294,7 +299,10 @@ static struct cell *cell_ready(struct lanes *c, int32_t at)
     if (!cell->made) {
         const struct cell *parent = &c->cells->at[cell->parent];
         make_tape(c, parent, (int)(at - parent->children), cell);
+    }
+    if (cell->picture != c->picture) {
         cell->splits = is_worth_splitting(c, cell);
+        cell->picture = c->picture;
     }
     return cell;
 }

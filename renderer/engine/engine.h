@@ -53,7 +53,7 @@ enum { ENGINE_MARGIN = 4 };
 enum engine_smoothing { ENGINE_PLAIN, ENGINE_BLEND, ENGINE_ADAPTIVE, ENGINE_FULL };
 
 struct engine_picture {
-    const struct engine_program *program;
+    struct engine_program *program;
     const float *params; /* of the field; it may be another of the same shape */
     const struct frame_uniforms *frame;
     const struct engine_map *maps[ENGINE_MAPS];
@@ -64,6 +64,12 @@ struct engine_picture {
     bool shadows, lights;   /* whether they are wanted */
     bool sparse;            /* one sample, of fewer pixels where that pays; light alone */
 };
+
+/* What pictures keep for the next of the same field and numbers. Of one thread; it outlives its
+ * canvases. */
+struct engine_cubes;
+struct engine_cubes *engine_cubes_create(void);
+void engine_cubes_destroy(struct engine_cubes *cubes); /* NULL: nothing */
 
 /* What a picture keeps between its tiles: cubes of space with what matters in each, and sums of
  * samples. */
@@ -83,7 +89,8 @@ struct engine_rect {
 };
 
 /* `picture` is copied; what it points to stays until the canvas is destroyed. */
-struct engine_canvas *engine_canvas_create(const struct engine_picture *picture);
+struct engine_canvas *engine_canvas_create(struct engine_cubes *cubes,
+                                           const struct engine_picture *picture);
 /* Sums of samples are kept for the pixels of `region`, so that tiles can be drawn again with more
  * of them. */
 void engine_canvas_keep(struct engine_canvas *canvas, struct engine_rect region);

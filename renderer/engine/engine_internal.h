@@ -52,6 +52,7 @@ struct cell {
     float centre[3], half;    /* the tape holds for LOOSE times this */
     uint32_t tape, count;     /* among the tapes */
     uint32_t drops;           /* what its children's tapes leave out, for each word of its own */
+    uint32_t picture;         /* that `splits` is for: it depends on the camera */
 };
 
 struct cells {
@@ -129,6 +130,10 @@ void cells_finish(struct cells spaces[ENGINE_SPACES]);
 struct hand; /* what a thread draws with: threads.c, tile.c */
 struct engine_canvas {
     struct engine_picture picture;
+    struct engine_cubes *keeper; /* has the cubes before and after this picture */
+    struct cubes *cubes;
+    uint64_t numbers;                   /* the name that the keeper has for the field's */
+    uint32_t number;                    /* of the picture, above 0 */
     struct hand *hands[ENGINE_THREADS]; /* each is made when it is first needed */
     struct engine_rect kept;            /* width 0: nothing is */
     float *pixels, *counted; /* sums of the kept: four and two for each (glsl/sums.glsl) */
@@ -178,7 +183,8 @@ struct dispatch_block {
     const float *params, *own;                                                                     \
     struct lanes_tile tile;                                                                        \
     struct cells *spaces, *cells;                                                                  \
-    int threads; /* that have cells */                                                             \
+    uint32_t picture; /* its number */                                                             \
+    int threads;      /* that have cells */                                                        \
     struct machine *machine;                                                                       \
     vf **frames;
 

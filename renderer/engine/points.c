@@ -28,6 +28,7 @@ static struct looker *looker_create(const struct engine_program *program, const 
     c->frames = frames_create(program);
     c->machine = aligned_room(sizeof *c->machine);
     c->threads = 1;
+    c->picture = 1;
     c->spaces = c->cells = looker->spaces;
     cells_begin(c);
     return looker;

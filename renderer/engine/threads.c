@@ -17,7 +17,8 @@ struct crew {
     cpu_set_t anywhere, elsewhere; /* processors: this process's; all but that of the caller */
 };
 
-static struct hand *hand_create(const struct engine_canvas *canvas, int threads)
+static struct hand *hand_create(const struct engine_canvas *canvas, int threads,
+                                struct cells *spaces)
 {
     const struct engine_picture *picture = &canvas->picture;
     struct hand *hand = aligned_room(sizeof *hand);
@@ -37,7 +38,8 @@ static struct hand *hand_create(const struct engine_canvas *canvas, int threads)
     c->frames = frames_create(c->program);
     c->machine = aligned_room(sizeof *c->machine);
     c->threads = threads;
-    c->spaces = hand->spaces;
+    c->picture = canvas->number;
+    c->spaces = spaces;
     for (int i = 0; i < ENGINE_SPACES; i++) {
         c->cells = &c->spaces[i];
         cells_begin(c);
@@ -53,17 +55,17 @@ static void hand_destroy(struct hand *hand)
     }
     frames_destroy(hand->lanes.program, hand->lanes.frames);
     free(hand->lanes.machine);
-    cells_finish(hand->spaces);
     free(hand);
 }
 
 /* The canvas's next: what it knows of the field is worth keeping from tile to tile. */
 static struct hand *hand_of(struct crew *crew)
 {
-    struct hand **hand = &crew->canvas->hands[atomic_fetch_add(&crew->next_thread, 1)];
+    const int number = atomic_fetch_add(&crew->next_thread, 1);
+    struct hand **hand = &crew->canvas->hands[number];
 
     if (!*hand) {
-        *hand = hand_create(crew->canvas, crew->threads);
+        *hand = hand_create(crew->canvas, crew->threads, crew->canvas->cubes->of[number]);
     }
     (*hand)->work = crew->work;
     (*hand)->rays = 0;

@@ -16,7 +16,6 @@ struct hand {
     struct lanes lanes;
     struct dispatch_block dispatch;
     struct scene_block scene;
-    struct cells spaces[ENGINE_SPACES];
     const struct engine_canvas *canvas;
     const struct engine_work *work;
     uint64_t rays; /* that followed others */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* All of the engine that depends on LANES, the width of its vectors. */
-#include "engine_internal.h"
+#include "cubes.h"
 #include "renderer/image/half.h"
 
 #include "spmd.h"

@@ -51,17 +51,24 @@ static struct renderer *open_renderer(enum render_stage stage, struct way way)
     return renderer;
 }
 
+static struct resident *open_resident(struct renderer *renderer, const struct embedded *example)
+{
+    struct error err = {0};
+    struct scene *scene = scene_parse((const char *)example->bytes, example->length, &err);
+
+    assert_non_null(scene);
+    local_render_give_example_file(renderer, scene);
+    return resident_create(renderer, scene, 1);
+}
+
 static struct image draw_part(struct renderer *renderer, const struct embedded *example,
                               int samples, int part)
 {
     struct error err = {0};
     struct image image;
-    struct scene *scene = scene_parse((const char *)example->bytes, example->length, &err);
+    struct resident *resident = open_resident(renderer, example);
     struct job_desc desc = drawing_desc(WIDTH / part, HEIGHT / part);
 
-    assert_non_null(scene);
-    local_render_give_example_file(renderer, scene);
-    struct resident *resident = resident_create(renderer, scene, 1);
     desc.samples = samples;
     assert_true(renderer_render(resident, &desc, &image, &err));
     resident_destroy(resident);
@@ -296,6 +303,47 @@ static void all_ways_give_the_same_bytes(void **state)
     }
 }
 
+/* From the side, or from where the document's camera is. */
+static struct image draw_view(struct resident *resident, bool from_side)
+{
+    struct error err = {0};
+    struct image image;
+    struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
+    struct record camera;
+    cJSON *json = json_text_parse("{'position':[4,2,3],'target':[0,0.5,0]}", NULL);
+
+    record_init(&camera, &camera_type);
+    assert_true(record_read(&camera, json, "camera", &err));
+    desc.camera = from_side ? &camera : NULL;
+    assert_true(renderer_render(resident, &desc, &image, &err));
+    record_finish(&camera);
+    cJSON_Delete(json);
+    return image;
+}
+
+/* Cubes that other views left, with other footprints, and that were used often. */
+static void earlier_views_do_not_show(void **state)
+{
+    static const char *const names[] = {"csg", "snowman", "coloured-glass", "snail"};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        struct renderer *renderer = open_renderer(RENDER_ENGINE, usual);
+        struct resident *resident = open_resident(renderer, example(names[i]));
+        struct image first = draw_view(resident, false);
+        for (int k = 0; k < 3; k++) {
+            struct image aside = draw_view(resident, true), again = draw_view(resident, false);
+            assert_true(difference(&aside, &first) > WIDTH * HEIGHT / 10);
+            assert_memory_equal(again.pixels, first.pixels, first.bytes);
+            image_finish(&aside);
+            image_finish(&again);
+        }
+        image_finish(&first);
+        resident_destroy(resident);
+        renderer_destroy(renderer);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -304,6 +352,7 @@ int main(void)
         cmocka_unit_test(other_pictures_are_noticed),
         cmocka_unit_test(what_is_left_out_beside_equations_is_not_missed),
         cmocka_unit_test(all_ways_give_the_same_bytes),
+        cmocka_unit_test(earlier_views_do_not_show),
     };
 
     return cmocka_run_group_tests_name("engine", tests, NULL, NULL);
