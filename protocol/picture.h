@@ -103,6 +103,13 @@ enum { PICTURE_WIDTH = 1280, PICTURE_HEIGHT = 720 }; /* where they are absent */
 /* What a request may cut. Where nothing of it is set, nothing is cut. */
 extern const struct record_type section_type;
 
+/* --- rounds --- */
+
+/* Of samples: one picture is drawn several times, each time of more of them. */
+struct picture_rounds {
+    int done, count;
+};
+
 /* --- time --- */
 
 /* Where the time of a frame goes, in this order. */

@@ -256,10 +256,6 @@ struct job_times {
     uint32_t us[FRAME_STAGES];
 };
 struct job_times job_times(const struct job *job);
-/* Of samples. */
-struct picture_rounds {
-    int done, count;
-};
 struct picture_rounds job_rounds(const struct job *job);
 void job_destroy(struct job *job); /* at any time: cancels */
 

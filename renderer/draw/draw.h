@@ -7,12 +7,12 @@
 #define RENDERER_DRAW_H
 
 #include "environment.h"
+#include "protocol/picture.h"
 #include "render_settings.h"
 #include "renderer/gl/fragment_targets.h"
 #include "renderer/gl/param_buffer.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/targets.h"
-#include "renderer/renderer.h"
 
 enum { TILES_IN_FLIGHT = 2 }; /* tiles of one picture on their way */
 
