@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* The shaders' own files, with texts in place of those that read textures and buffers. */
-#include "webgl.h"
-
+/* A picture as the text of one shader: the shaders' own files, with texts in place of those that
+ * read textures and buffers. All numbers are constants, the field is not interpreted, nothing is
+ * pruned, and no texture is read. */
 #include <stdlib.h>
 
-#include "environment.h"
+#include "renderer.h"
+#include "renderer/draw/environment.h"
+#include "renderer/draw/snapshot.h"
 #include "renderer/engine/engine.h"
 #include "renderer/field/shader.h"
 #include "renderer/glsl/include.h"
 #include "renderer/glsl/reach.h"
 #include "renderer/image/half.h"
-#include "renderer/renderer.h"
-#include "snapshot.h"
 
 /* A text that is being written. */
 struct text {
@@ -192,8 +192,10 @@ static char *write_head(const struct field *field, const struct frame_uniforms *
     return text_end(&text);
 }
 
-char *webgl_text(const struct field *field, const struct frame_uniforms *frame,
-                 const struct render_settings *settings, const double target[3], struct error *err)
+/* `target`: what the camera turns around. NULL and `err` where a file is missing. */
+static char *write_text(const struct field *field, const struct frame_uniforms *frame,
+                        const struct render_settings *settings, const double target[3],
+                        struct error *err)
 {
     char *head = write_head(field, frame, settings, target), *map = shader_map(field);
     char *surface = shader_surface(field), *params = write_params(field);
@@ -240,7 +242,7 @@ char *renderer_webgl(const struct scene *scene, int level, struct error *err)
         }
         render_settings_make(&settings, &frame, &scene->render,
                              &(struct settings_request){.level = level, .transparent = 0}, &extent);
-        text = webgl_text(field, &frame, &settings, record_vector(&scene->camera, "target"), err);
+        text = write_text(field, &frame, &settings, record_vector(&scene->camera, "target"), err);
     }
     field_unref(field);
     return text;
