@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A renderer's life, its counters, and the whole way of one picture. */
-#include "renderer/draw/renderer_internal.h"
+#include "renderer_internal.h"
 
 #include <stdarg.h>
 #include <stdlib.h>

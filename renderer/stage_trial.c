@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "protocol/scene.h"
-#include "renderer/draw/renderer_internal.h"
+#include "renderer_internal.h"
 
 enum { WIDTH = 1280, HEIGHT = 720, SOFTWARE_PART = 8, ROUNDS = 3, KEPT_BYTES = 512 };
 

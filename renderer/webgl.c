@@ -6,12 +6,12 @@
 
 #include "renderer.h"
 #include "renderer/draw/environment.h"
-#include "renderer/draw/snapshot.h"
 #include "renderer/engine/engine.h"
 #include "renderer/field/shader.h"
 #include "renderer/glsl/include.h"
 #include "renderer/glsl/reach.h"
 #include "renderer/image/half.h"
+#include "snapshot.h"
 
 /* A text that is being written. */
 struct text {

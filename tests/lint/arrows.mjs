@@ -24,7 +24,7 @@ export const INCLUDES = {
     'renderer/gl': ['protocol', 'renderer/glsl', 'renderer/crash.h', 'renderer/vigil.h'],
     'renderer/draw': [
         'protocol',
-        ...['glsl', 'field', 'engine', 'gl', 'image', 'crash.h', 'patient.h', 'renderer.h'].map((name) => `renderer/${name}`),
+        ...['glsl', 'field', 'engine', 'gl', 'image', 'crash.h', 'patient.h'].map((name) => `renderer/${name}`),
     ],
     server: ['protocol', ...WORKER],
     'server/net': ['protocol', ...BASE],

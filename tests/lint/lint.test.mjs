@@ -49,6 +49,7 @@ const BREAKS = [
     ['arrow', 'renderer/field/field.c', `${C}#include "renderer/gl/gl.h"\n`],
     ['arrow', 'renderer/image/png.c', `${C}#include "renderer/renderer.h"\n`],
     ['arrow', 'renderer/draw/draw.c', `${C}#include "renderer/worker.h"\n`],
+    ['arrow', 'renderer/draw/draw.c', `${C}#include "renderer/renderer.h"\n`],
     ['arrow', 'server/net/http.c', `${C}#include "server/live/hub.h"\n`],
     ['arrow', 'server/net/http.c', `${C}#include "server/rest/routes.h"\n`],
     ['arrow', 'server/store/store.c', `${C}#include "server/live/hub.h"\n`],

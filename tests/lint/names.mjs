@@ -44,7 +44,7 @@ export const OLD_NAMES = [
     ['struct held', 'struct worker_scene'],
     ['worker_drop_task', 'worker_drop_job'],
     ['worker_choose_task', 'worker_choose_job'],
-    ['draw/context', 'draw/renderer_internal'],
+    ['draw/context', 'renderer/renderer_internal'],
     ['draw_parts', 'draw_internal'],
     ['job_parts', 'job_internal'],
     ['program_parts', 'program_internal'],

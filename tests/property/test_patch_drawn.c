@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "protocol/memory.h"
-#include "renderer/draw/renderer_internal.h"
+#include "renderer/renderer_internal.h"
 #include "tests/support/drawing.h"
 #include "tests/support/random_scene.h"
 

@@ -12,8 +12,8 @@
 #include "compiled.h"
 #include "drawing.h"
 #include "protocol/json.h"
-#include "renderer/draw/renderer_internal.h"
 #include "renderer/field/shader.h"
+#include "renderer/renderer_internal.h"
 
 enum { PARAM_BUFFER_MIN = 64 }; /* vec4s, as programs of snapshot.c */
 

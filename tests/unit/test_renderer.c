@@ -14,8 +14,8 @@
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "renderer/code/code.h"
-#include "renderer/draw/renderer_internal.h"
 #include "renderer/pick.h"
+#include "renderer/renderer_internal.h"
 #include "tests/support/drawing.h"
 #include "tests/support/json_text.h"
 

@@ -4,10 +4,11 @@
 #ifndef RENDERER_SNAPSHOT_H
 #define RENDERER_SNAPSHOT_H
 
-#include "draw.h"
+#include "renderer.h"
+#include "renderer/draw/draw.h"
+#include "renderer/draw/trial.h"
+#include "renderer/draw/upload.h"
 #include "renderer/field/field.h"
-#include "trial.h"
-#include "upload.h"
 
 struct snapshot {
     int references;

@@ -4,11 +4,11 @@
 #ifndef RENDERER_INTERNAL_H
 #define RENDERER_INTERNAL_H
 
-#include "draw.h"
-#include "pace.h"
-#include "pictures.h"
+#include "renderer.h"
+#include "renderer/draw/draw.h"
+#include "renderer/draw/pace.h"
+#include "renderer/draw/pictures.h"
 #include "renderer/gl/egl.h"
-#include "renderer/renderer.h"
 #include "snapshot.h"
 
 struct renderer {
