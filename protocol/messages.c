@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "edit.h"
-#include "id_set.h"
 #include "json.h"
 #include "limits.h"
 #include "nodes.h"
@@ -26,6 +25,7 @@ struct message_member {
     struct param param; /* of MEMBER_OBJECT and the like only name and doc; `max` ids of nodes */
     bool required;
     enum member_kind kind;
+    size_t into;                      /* MEMBER_RECORD, MEMBER_NODES: offset in struct message */
     const struct record_type *record; /* MEMBER_RECORD */
 };
 
@@ -36,6 +36,7 @@ struct message_type {
 };
 
 #define MEMBERS(...) ((const struct message_member[]){__VA_ARGS__, {.param = {.name = NULL}}})
+#define INTO(member) .into = offsetof(struct message, member)
 #define EXACT_MAX 9007199254740991.0 /* whole numbers up to here are exact in JSON */
 #define COUNT PARAM_INT, .min = 0, .max = EXACT_MAX
 #define SMALL PARAM_INT, .min = 0, .max = 4294967295.0
@@ -76,7 +77,7 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
         {.param = {"width", SIDE, .doc = "Device pixels."}, .required = true},
         {.param = {"height", SIDE, .doc = "Device pixels."}, .required = true},
         {.param = {"camera", .doc = "What differs from the document's; absent: nothing."},
-         .kind = MEMBER_RECORD, .record = &camera_type},
+         .kind = MEMBER_RECORD, INTO(view.camera), .record = &camera_type},
         {.param = {"aov", PARAM_ENUM, .choices = aov_picture_names, .doc = "Which output."}},
         {.param = {"quality", PARAM_ENUM, .choices = qualities,
           .doc = "Speed or sharpness in motion."}},
@@ -86,10 +87,10 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
         {.param = {"isolate", .max = LIMIT_ISOLATED,
           .doc = "Ids: this client's pictures and picks show these nodes and what is below them."
                  " Absent, or none in the scene: all."},
-         .kind = MEMBER_NODES},
+         .kind = MEMBER_NODES, INTO(view.isolate)},
         {.param = {"section", .doc = "A plane that cuts this client's pictures and picks; absent:"
                                      " nothing is cut."},
-         .kind = MEMBER_RECORD, .record = &section_type})},
+         .kind = MEMBER_RECORD, INTO(view.section), .record = &section_type})},
     [MESSAGE_EDIT] = {"edit", "Changes the scene.", MEMBERS(
         EDIT_NUMBER,
         {.param = {"ops", .doc = "The operations."}, .required = true, .kind = MEMBER_OPERATIONS},
@@ -112,11 +113,11 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
         "Whose thumbnails this client shows; only the newest counts.", MEMBERS(
         {.param = {"nodes", .max = LIMIT_THUMBNAILS,
           .doc = "Ids of nodes on screen. Those that the scene does not have are ignored."},
-         .kind = MEMBER_NODES},
+         .kind = MEMBER_NODES, INTO(nodes)},
         {.param = {"large", .max = LIMIT_THUMBNAILS, .doc = "The same, 8/3 as wide."},
-         .kind = MEMBER_NODES},
+         .kind = MEMBER_NODES, INTO(large)},
         {.param = {"materials", .max = LIMIT_THUMBNAILS, .doc = "Names of materials on screen."},
-         .kind = MEMBER_NODES},
+         .kind = MEMBER_NODES, INTO(materials)},
         {.param = {"width", TILE,
           .doc = "Device pixels of a small one; the height is 2/3 of it. Absent: 96."}})},
     [MESSAGE_ACK_THUMBNAILS] = {"ack_thumbnails", "Thumbnails were taken.", MEMBERS(
@@ -232,29 +233,10 @@ static bool check_key(const cJSON *json, const char *place, struct error *err)
            error_set(err, ERROR_INVALID, place, "expected %d of 0-9 a-f", MESSAGE_KEY_CHARACTERS);
 }
 
-static bool check_nodes(const cJSON *json, int most, const char *place, struct error *err)
+static bool read_member(struct message *out, const struct message_member *member, const cJSON *json,
+                        const char *place, struct error *err)
 {
-    struct id_set ids = {0};
-    bool ok = id_set_read(&ids, json, most, place, err);
-
-    id_set_finish(&ids);
-    return ok;
-}
-
-static bool check_record(const struct record_type *type, const cJSON *json, const char *place,
-                         struct error *err)
-{
-    struct record record;
-
-    record_init(&record, type);
-    const bool ok = record_read(&record, json, place, err);
-    record_finish(&record);
-    return ok;
-}
-
-static bool check_member(const struct message_member *member, const cJSON *json, const char *place,
-                         struct error *err)
-{
+    void *into = (char *)out + member->into;
     double number[4];
 
     switch (member->kind) {
@@ -263,11 +245,11 @@ static bool check_member(const struct message_member *member, const cJSON *json,
     case MEMBER_KEY:
         return check_key(json, place, err);
     case MEMBER_RECORD:
-        return check_record(member->record, json, place, err);
+        return record_read(into, json, place, err);
     case MEMBER_OPERATIONS:
         return edit_check(json, err);
     case MEMBER_NODES:
-        return check_nodes(json, (int)member->param.max, place, err);
+        return id_set_read(into, json, (int)member->param.max, place, err);
     case MEMBER_OBJECT:
         return cJSON_IsObject(json) || error_set(err, ERROR_SYNTAX, place, "expected an object");
     case MEMBER_VALUE:
@@ -299,21 +281,23 @@ static bool fail_member(const struct message_type *type, const char *name, const
                      suggest_hint(&suggestion, hint, sizeof hint));
 }
 
-static bool check_members(const struct message_type *type, const cJSON *json, struct error *err)
+static bool read_members(struct message *out, struct error *err)
 {
-    for (const cJSON *item = json->child; item; item = item->next) {
+    const struct message_type *type = &client_messages[out->kind];
+
+    for (const cJSON *item = out->json->child; item; item = item->next) {
         const struct message_member *member = find_member(type, item->string);
         char place[ERROR_PLACE_BYTES];
         error_place(place, "", item->string);
         if (!member && strcmp(item->string, "type") != 0) {
             return fail_member(type, item->string, place, err);
         }
-        if (member && !check_member(member, item, place, err)) {
+        if (member && !read_member(out, member, item, place, err)) {
             return false;
         }
     }
     for (const struct message_member *member = type->members; member->param.name; member++) {
-        if (member->required && !cJSON_GetObjectItemCaseSensitive(json, member->param.name)) {
+        if (member->required && !cJSON_GetObjectItemCaseSensitive(out->json, member->param.name)) {
             return error_set(err, ERROR_SYNTAX, "", "\"%s\" lacks the member \"%s\"", type->name,
                              member->param.name);
         }
@@ -345,26 +329,30 @@ static bool find_kind(const cJSON *json, enum message_kind *out, struct error *e
 
 bool message_read(const char *text, size_t length, struct message *out, struct error *err)
 {
-    enum message_kind kind = MESSAGE_COUNT;
-
     if (length > LIMIT_MESSAGE_BYTES) {
         return error_set(err, ERROR_TOO_LARGE, "", "%zu bytes are above the maximum %d", length,
                          LIMIT_MESSAGE_BYTES);
     }
-    cJSON *json = json_parse(text, length, err);
-    if (!json || !find_kind(json, &kind, err) ||
-        !check_members(&client_messages[kind], json, err)) {
-        cJSON_Delete(json);
-        return false;
+    *out = (struct message){.json = json_parse(text, length, err)};
+    bool ok = out->json && find_kind(out->json, &out->kind, err);
+    if (ok && out->kind == MESSAGE_VIEW) {
+        render_request_init(&out->view);
     }
-    *out = (struct message){.kind = kind, .json = json};
-    return true;
+    ok = ok && read_members(out, err);
+    if (!ok) {
+        message_finish(out);
+    }
+    return ok;
 }
 
 void message_finish(struct message *message)
 {
     cJSON_Delete(message->json);
     message->json = NULL;
+    render_request_finish(&message->view);
+    id_set_finish(&message->nodes);
+    id_set_finish(&message->large);
+    id_set_finish(&message->materials);
 }
 
 double json_member_number(const cJSON *object, const char *name, double fallback)

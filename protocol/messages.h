@@ -9,7 +9,7 @@
 #include "codec.h"
 #include "limits.h"
 #include "picture.h"
-#include "record.h"
+#include "render_request.h"
 
 enum message_kind {
     MESSAGE_HELLO,
@@ -30,6 +30,9 @@ enum { MESSAGE_KEY_CHARACTERS = 32 }; /* of a client: 128 random bits */
 struct message {
     enum message_kind kind;
     cJSON *json; /* the whole object, checked: members known, types and ranges right */
+    /* Its records and lists of ids: */
+    struct render_request view;            /* MESSAGE_VIEW: camera, section and isolate alone */
+    struct id_set nodes, large, materials; /* MESSAGE_THUMBNAILS */
 };
 
 /* Reads one client message; pre-scan included. On success the caller calls message_finish. */

@@ -89,29 +89,11 @@ static void pick(struct session *session, const cJSON *message)
     }
 }
 
-static void view(struct session *session, const cJSON *message)
-{
-    struct error err = {0};
-
-    if (!stream_set_view(session, message, &err)) {
-        session_error(session, &err);
-    }
-}
-
 static void retry(struct session *session, const cJSON *message)
 {
     struct error err = {0};
 
     if (!retry_place(session->room, json_member_text(message, "place", NULL), &err)) {
-        session_error(session, &err);
-    }
-}
-
-static void thumbnails(struct session *session, const cJSON *message)
-{
-    struct error err = {0};
-
-    if (!thumbnails_ask(session, message, &err)) {
         session_error(session, &err);
     }
 }
@@ -128,7 +110,7 @@ static void handle(struct session *session, const struct message *message)
     }
     switch (message->kind) {
     case MESSAGE_VIEW:
-        view(session, message->json);
+        stream_set_view(session, message);
         break;
     case MESSAGE_EDIT:
     case MESSAGE_UNDO:
@@ -145,7 +127,7 @@ static void handle(struct session *session, const struct message *message)
         stream_acknowledge(session, (uint32_t)json_member_number(message->json, "frame", 0));
         break;
     case MESSAGE_THUMBNAILS:
-        thumbnails(session, message->json);
+        thumbnails_ask(session, message);
         break;
     case MESSAGE_ACK_THUMBNAILS:
         thumbnails_acknowledge(session, (uint32_t)json_member_number(message->json, "number", 0));

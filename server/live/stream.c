@@ -113,48 +113,33 @@ static bool same_picture(const struct stream_view *a, const struct stream_view *
            render_request_equal(&a->picture, &b->picture);
 }
 
-/* The members of the checked message that say what is seen. */
-static bool read_picture(const cJSON *message, struct render_request *out, struct error *err)
+void stream_set_view(struct session *session, const struct message *message)
 {
-    const cJSON *camera = cJSON_GetObjectItemCaseSensitive(message, "camera");
-    const cJSON *section = cJSON_GetObjectItemCaseSensitive(message, "section");
-    const cJSON *isolate = cJSON_GetObjectItemCaseSensitive(message, "isolate");
-
-    render_request_init(out);
-    record_put(&out->picture, "width", json_member_number(message, "width", 0));
-    record_put(&out->picture, "height", json_member_number(message, "height", 0));
-    record_put_text(&out->picture, "aov", json_member_text(message, "aov", aov_name(AOV_COLOR)));
-    return (!camera || record_read(&out->camera, camera, "/camera", err)) &&
-           (!section || record_read(&out->section, section, "/section", err)) &&
-           (!isolate || id_set_read(&out->isolate, isolate, LIMIT_ISOLATED, "/isolate", err));
-}
-
-bool stream_set_view(struct session *session, const cJSON *message, struct error *err)
-{
+    const cJSON *json = message->json;
     struct stream *stream = session->stream;
     struct stream_view *old = newest_view(stream);
     struct stream_view view = {
-        .seq = (uint32_t)json_member_number(message, "seq", 0),
-        .preference = find_preference(json_member_text(message, "quality", "auto")),
-        .visible = json_member_bool(message, "visible", true),
-        .guides = json_member_bool(message, "guides", false),
+        .seq = (uint32_t)json_member_number(json, "seq", 0),
+        .preference = find_preference(json_member_text(json, "quality", "auto")),
+        .visible = json_member_bool(json, "visible", true),
+        .guides = json_member_bool(json, "guides", false),
     };
+    struct record *picture = &view.picture.picture;
 
-    if (!read_picture(message, &view.picture, err)) {
-        render_request_finish(&view.picture);
-        return false;
-    }
+    render_request_copy(&view.picture, &message->view);
+    record_put(picture, "width", json_member_number(json, "width", 0));
+    record_put(picture, "height", json_member_number(json, "height", 0));
+    record_put_text(picture, "aov", json_member_text(json, "aov", aov_name(AOV_COLOR)));
     if (old && same_picture(old, &view)) {
         old->seq = view.seq;
         render_request_finish(&view.picture);
-        return true;
+        return;
     }
     stream->newest = old ? (stream->newest + 1) % STREAM_VIEWS : 0;
     render_request_finish(&stream->views[stream->newest].picture);
     stream->views[stream->newest] = view;
     stream->has_view = true;
     stream_changed(session);
-    return true;
 }
 
 void stream_changed(struct session *session)

@@ -18,11 +18,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include <cjson/cJSON.h>
-
 #include "protocol/limits.h"
 #include "protocol/render_request.h"
 
+struct message;
 struct session;
 
 enum stream_stage {
@@ -83,8 +82,8 @@ void stream_init(struct stream *stream);
 void stream_finish(struct session *session);
 /* Cancels the order. A new view or change starts the stream again. */
 void stream_stop(struct session *session);
-/* Sets the view of a checked `view` message. False and `err`: the camera or section is wrong. */
-bool stream_set_view(struct session *session, const cJSON *message, struct error *err);
+/* Sets the view of a `view` message. */
+void stream_set_view(struct session *session, const struct message *message);
 /* The view with this number, else the newest; NULL: there is none yet. */
 const struct stream_view *stream_find_view(const struct stream *stream, uint32_t seq);
 void stream_acknowledge(struct session *session, uint32_t number);

@@ -93,34 +93,16 @@ static void add_all(struct thumbnail_list *list, enum thumbnail_kind kind, const
     }
 }
 
-static bool add_member(struct thumbnail_list *list, const cJSON *message, const char *member,
-                       enum thumbnail_kind kind, int width, struct error *err)
-{
-    const cJSON *json = cJSON_GetObjectItemCaseSensitive(message, member);
-    char place[ERROR_PLACE_BYTES];
-    struct id_set ids = {0};
-
-    if (json && !id_set_read(&ids, json, LIMIT_THUMBNAILS, error_place(place, "", member), err)) {
-        return false;
-    }
-    add_all(list, kind, &ids, width);
-    id_set_finish(&ids);
-    return true;
-}
-
-bool thumbnails_ask(struct session *session, const cJSON *message, struct error *err)
+void thumbnails_ask(struct session *session, const struct message *message)
 {
     struct thumbnail_list *old = session->thumbnails, wanted = *old;
-    const int width = (int)json_member_number(message, "width", THUMBNAIL_WIDTH);
+    const int width = (int)json_member_number(message->json, "width", THUMBNAIL_WIDTH);
 
     wanted.items = NULL;
     wanted.count = 0;
-    if (!add_member(&wanted, message, "nodes", THUMBNAIL_NODE, width, err) ||
-        !add_member(&wanted, message, "large", THUMBNAIL_NODE, 8 * width / 3, err) ||
-        !add_member(&wanted, message, "materials", THUMBNAIL_MATERIAL, width, err)) {
-        free(wanted.items);
-        return false;
-    }
+    add_all(&wanted, THUMBNAIL_NODE, &message->nodes, width);
+    add_all(&wanted, THUMBNAIL_NODE, &message->large, 8 * width / 3);
+    add_all(&wanted, THUMBNAIL_MATERIAL, &message->materials, width);
     for (size_t i = 0; i < wanted.count; i++) {
         const struct thumbnail *known = find(old, &wanted.items[i]);
 
@@ -131,7 +113,6 @@ bool thumbnails_ask(struct session *session, const cJSON *message, struct error 
     free(old->items);
     *old = wanted;
     supervisor_wake(session->hub->supervisor);
-    return true;
 }
 
 void thumbnails_acknowledge(struct session *session, uint32_t number)

@@ -20,8 +20,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include <cjson/cJSON.h>
-
 #include "protocol/asset.h"
 #include "protocol/error.h"
 #include "protocol/limits.h"
@@ -61,8 +59,8 @@ struct thumbnail_list {
 struct thumbnails *thumbnails_create(void);
 void thumbnails_destroy(struct thumbnails *thumbnails); /* NULL: nothing */
 
-/* Takes a checked `thumbnails` message. False and `err`: a list is too long, or no list of ids. */
-bool thumbnails_ask(struct session *session, const cJSON *message, struct error *err);
+/* Takes a `thumbnails` message. */
+void thumbnails_ask(struct session *session, const struct message *message);
 void thumbnails_acknowledge(struct session *session, uint32_t number);
 /* The session wants none any more. */
 void thumbnails_stop(struct session *session);

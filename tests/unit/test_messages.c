@@ -24,7 +24,7 @@ static bool read_text(const char *text, struct message *out, struct error *err)
     return ok;
 }
 
-static void assert_accepted(const char *text, enum message_kind kind)
+static struct message read_valid(const char *text)
 {
     struct error err = {0};
     struct message message;
@@ -32,6 +32,13 @@ static void assert_accepted(const char *text, enum message_kind kind)
     if (!read_text(text, &message, &err)) {
         fail_msg("%s: %s: %s", text, err.place, err.message);
     }
+    return message;
+}
+
+static void assert_accepted(const char *text, enum message_kind kind)
+{
+    struct message message = read_valid(text);
+
     assert_int_equal(message.kind, kind);
     accepted[kind] = true;
     assert_string_equal(json_member_text(message.json, "type", ""), message_name(kind));
@@ -151,6 +158,31 @@ static void invalid_messages_are_refused(void **state)
     assert_refused("{'type':'pick','pick':1,'x':0}", ERROR_SYNTAX, "", "member \"y\"");
     assert_refused("{'type':'ack','frame':4294967296}", ERROR_INVALID, "/frame",
                    "4294967296 is above the maximum 4294967295");
+}
+
+static void records_and_lists_are_read(void **state)
+{
+    (void)state;
+    struct message view = read_valid("{'type':'view','seq':7,'width':64,'height':36,"
+                                     "'camera':{'fov':30},'isolate':['b','a'],"
+                                     "'section':{'offset':0.5}}");
+    struct message plain = read_valid("{'type':'view','seq':8,'width':64,'height':36}");
+    struct message shown = read_valid("{'type':'thumbnails','nodes':['a','b'],'large':['c'],"
+                                      "'materials':['m','n','o']}");
+
+    assert_float_equal(record_number(&view.view.camera, "fov"), 30, 0);
+    assert_false(record_is_set(&view.view.camera, "position"));
+    assert_float_equal(record_number(&view.view.section, "offset"), 0.5, 0);
+    assert_int_equal(view.view.isolate.count, 2);
+    assert_string_equal(view.view.isolate.ids[0], "a");
+    assert_true(record_is_empty(&plain.view.camera) && record_is_empty(&plain.view.section));
+    assert_int_equal(plain.view.isolate.count, 0);
+    assert_int_equal(shown.nodes.count, 2);
+    assert_int_equal(shown.large.count, 1);
+    assert_string_equal(shown.materials.ids[2], "o");
+    message_finish(&view);
+    message_finish(&plain);
+    message_finish(&shown);
 }
 
 static void refuses_large_messages(void **state)
@@ -287,6 +319,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(valid_messages_are_accepted),
         cmocka_unit_test(invalid_messages_are_refused),
+        cmocka_unit_test(records_and_lists_are_read),
         cmocka_unit_test(refuses_large_messages),
         cmocka_unit_test(members_have_fallbacks),
         cmocka_unit_test(frame_header_bytes),
