@@ -15,12 +15,17 @@ export interface Section {
     readonly flipped: boolean;
 }
 
+/* A unit vector, to where the picture is cut away. */
+export function sectionNormal({ axis, flipped }: Section): Vector {
+    const along = (one: SectionAxis): number => (one === axis ? (flipped ? -1 : 1) : 0);
+    return [along("x"), along("y"), along("z")];
+}
+
 /* As requests have it. */
-export function printSection({ axis, at, flipped }: Section): JsonObject {
-    const sign = flipped ? -1 : 1;
+export function printSection(section: Section): JsonObject {
     return {
-        normal: SECTION_AXES.map((one) => (one === axis ? sign : 0)),
-        offset: sign * at,
+        normal: [...sectionNormal(section)],
+        offset: section.flipped ? -section.at : section.at,
     };
 }
 

@@ -472,6 +472,6 @@ function guideLine(projection: Projection, hold: Hold): readonly Spot[] | null {
 }
 
 /* Shift goes a tenth of the way; Ctrl turns snapping on, or off where it is on. */
-function keysOf(shift: boolean, ctrl: boolean, snaps: boolean): HoldKeys {
+export function keysOf(shift: boolean, ctrl: boolean, snaps: boolean): HoldKeys {
     return { fine: shift, snap: ctrl !== snaps };
 }

@@ -96,11 +96,7 @@ export class Hold {
     }
 
     to(spot: Spot, keys: HoldKeys): void {
-        const rate = keys.fine ? FINE : 1;
-        this.#hand = {
-            x: this.#hand.x + (spot.x - this.#pointer.x) * rate,
-            y: this.#hand.y + (spot.y - this.#pointer.y) * rate,
-        };
+        this.#hand = handAfter(this.#hand, this.#pointer, spot, keys.fine);
         this.#pointer = spot;
         this.#keys = keys;
         if (this.#typed === "") {
@@ -197,6 +193,12 @@ export class Hold {
         const isFactor = this.#constraint.motion === "scale" && shown !== null && shown <= 0;
         return shown === null || isFactor ? null : deltaOf(this.grip, fromShown(shown, unit));
     }
+}
+
+/* Where a hand is that goes the pointer's way, or a tenth of it. */
+export function handAfter(hand: Spot, from: Spot, to: Spot, fine: boolean): Spot {
+    const rate = fine ? FINE : 1;
+    return { x: hand.x + (to.x - from.x) * rate, y: hand.y + (to.y - from.y) * rate };
 }
 
 function amountOf(delta: Delta | null, { constraint, frame }: Grip): string {

@@ -21,6 +21,7 @@ const gestures: readonly { title: TextKey; rows: readonly (readonly [TextKey, st
             ["keys.dolly", "Wheel"],
             ["keys.touch", "1 / 2 fingers"],
             ["keys.regions", "F6"],
+            ["keys.section", "Drag / ↑ ↓"],
         ],
     },
     {

@@ -5,7 +5,7 @@ import { useCallback, useEffect, useRef, useState } from "react";
 import { Grid } from "../../overlay/grid.ts";
 import { Hands } from "../../overlay/hands.ts";
 import { Outlines } from "../../overlay/outlines.ts";
-import { attachPointer } from "../../overlay/pointer.ts";
+import { attachPointer, type PointerActions } from "../../overlay/pointer.ts";
 import { lazyPart } from "../lazy.tsx";
 import { NodeMenu, type Target } from "../scene/NodeMenu.tsx";
 import { useDocument, useEditor, useLink, useView } from "../state.ts";
@@ -32,6 +32,7 @@ import "./view.css";
 const Drops = lazyPart(() => import("../drop/Drops.tsx"));
 const UnderMenu = lazyPart(() => import("./UnderMenu.tsx"));
 const Section = lazyPart(() => import("./Section.tsx"));
+const SectionHandle = lazyPart(() => import("./SectionHandle.tsx"));
 const StatisticsPill = lazyPart(() => import("./Statistics.tsx"));
 
 export function View() {
@@ -76,6 +77,7 @@ function Picture() {
     const empty = useLink(({ frame }) => frame.state === "none");
     const { menu, open, close } = usePictureMenu();
     const [under, setUnder] = useState<Under | null>(null);
+    const [acts, setActs] = useState<PointerActions | null>(null);
     const list = useRef<(at: MenuPlace) => void>(undefined);
     useEffect(() => {
         const element = place.current;
@@ -88,6 +90,7 @@ function Picture() {
         const outlines = new Outlines(editor.stores, element);
         const hands = new Hands(handsPage(editor), element);
         const actions = pointerActions(editor, element, hands, open, setUnder);
+        setActs(actions);
         list.current = ({ x, y }) => {
             const box = element.getBoundingClientRect();
             actions.click(x - box.left, y - box.top, "replace", true);
@@ -131,6 +134,7 @@ function Picture() {
                 onClose={close}
             />
             <UnderMenu under={under} onClose={() => setUnder(null)} />
+            {acts && <SectionHandle actions={acts} />}
         </>
     );
 }
