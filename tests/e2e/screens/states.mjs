@@ -446,8 +446,9 @@ const DIALOGS = [
         await page.getByTestId('isolated').waitFor();
     }, { clean: (page) => page.getByRole('button', { name: 'Show all' }).click() }],
     ['section', async (page) => {
-        await page.getByRole('button', { name: 'Section' }).click();
-        await page.getByTestId('section').waitFor();
+        await page.getByTestId('picture').focus();
+        await page.keyboard.press('k');
+        await page.getByTestId('section-arrow').waitFor();
     }, { clean: (page) => page.getByTestId('section').getByRole('button', { name: 'Show all' }).click() }],
     ['panels hidden', key('Control+\\'), { clean: key('Control+\\') }],
 ];
