@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Cubes of space with what of a field matters in each (cells.c), kept from picture to picture while
- * the field's numbers stay: another view finds most of what it needs. No pixel depends on it. Of the
- * drawing thread. */
+/* Cubes of space with what of a field matters in each (cells.c). They are kept from picture to
+ * picture while the field's numbers stay, because another view finds most of what it needs. No
+ * pixel depends on them. Of the drawing thread. */
 #ifndef RENDERER_ENGINE_CUBES_H
 #define RENDERER_ENGINE_CUBES_H
 
