@@ -49,10 +49,11 @@ void engine_cubes_destroy(struct engine_cubes *cubes)
     free(cubes);
 }
 
-/* Other numbers have another hash but for one time in 2^64. */
+/* Of the numbers of shapes and operations: materials change no distance. Others have another hash
+ * but for one time in 2^64. */
 static uint64_t hash_of(const struct engine_program *program, const float *params)
 {
-    const size_t pairs = 2 * program->field->vec4_count;
+    const size_t pairs = 2 * program->field->material_base;
     uint64_t hash = pairs;
 
     for (size_t i = 0; i < pairs; i++) {

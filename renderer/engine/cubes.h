@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Cubes of space with what of a field matters in each (cells.c). They are kept from picture to
- * picture while the field's numbers stay, because another view finds most of what it needs. No
- * pixel depends on them. Of the drawing thread. */
+ * picture while the numbers of shapes and operations stay: another view, or other materials, find
+ * most of what they need. No pixel depends on them. Of the drawing thread. */
 #ifndef RENDERER_ENGINE_CUBES_H
 #define RENDERER_ENGINE_CUBES_H
 
