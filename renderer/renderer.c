@@ -163,6 +163,11 @@ struct renderer_counters renderer_counters(const struct renderer *renderer)
     return counters;
 }
 
+void renderer_forget(struct renderer *renderer)
+{
+    draw_forget(renderer->draw);
+}
+
 struct renderer_verdict *renderer_find_verdict(const struct renderer *renderer,
                                                uint64_t structure_hash, const char *image)
 {

@@ -79,6 +79,8 @@ struct renderer_counters {
     uint64_t rays; /* reflected and refracted ones */
 };
 struct renderer_counters renderer_counters(const struct renderer *renderer);
+/* Drops what pictures keep for the next ones of their field: benchmarks draw each as the first. */
+void renderer_forget(struct renderer *renderer);
 
 /* A structure whose compiler may never end, as gl/program.h has it; or a picture that is read. */
 struct renderer_stuck {

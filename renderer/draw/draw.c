@@ -99,6 +99,11 @@ void draw_destroy(struct draw *draw)
     free(draw);
 }
 
+void draw_forget(struct draw *draw)
+{
+    engine_cubes_forget(draw->cubes);
+}
+
 uint64_t draw_compilations(const struct draw *draw)
 {
     return draw->compilations;

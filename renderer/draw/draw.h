@@ -102,6 +102,8 @@ void draw_destroy(struct draw *draw);
  * samples leave room. In textures a tile shares this side with its margin. */
 int draw_tile_side(const struct draw *draw, const struct draw_picture *picture, int doublings);
 uint64_t draw_compilations(const struct draw *draw);
+/* What pictures of the engine keep for the next ones. */
+void draw_forget(struct draw *draw);
 /* Reflected and refracted rays that were started. */
 uint64_t draw_rays(const struct draw *draw);
 

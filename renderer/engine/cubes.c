@@ -41,12 +41,19 @@ static void drop(struct kept *kept)
     *kept = (struct kept){0};
 }
 
-void engine_cubes_destroy(struct engine_cubes *cubes)
+void engine_cubes_forget(struct engine_cubes *cubes)
 {
-    for (int i = 0; cubes && i < KEPT; i++) {
+    for (int i = 0; i < KEPT; i++) {
         drop(&cubes->kept[i]);
     }
-    free(cubes);
+}
+
+void engine_cubes_destroy(struct engine_cubes *cubes)
+{
+    if (cubes) {
+        engine_cubes_forget(cubes);
+        free(cubes);
+    }
 }
 
 /* Of the numbers of shapes and operations: materials change no distance. Others have another hash

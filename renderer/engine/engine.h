@@ -69,6 +69,7 @@ struct engine_picture {
  * canvases. */
 struct engine_cubes;
 struct engine_cubes *engine_cubes_create(void);
+void engine_cubes_forget(struct engine_cubes *cubes);
 void engine_cubes_destroy(struct engine_cubes *cubes); /* NULL: nothing */
 
 /* What a picture keeps between its tiles: cubes of space with what matters in each, and sums of

@@ -36,7 +36,7 @@ cJSON *bench_drawing(const struct renderer_params *params, const char *only,
 struct resident *bench_open(struct renderer *renderer, const struct embedded *example,
                             struct error *err);
 
-/* Draws one picture for its times. */
+/* Draws one picture for its times, as if it were the first of its scene. */
 bool bench_draw(struct renderer *renderer, struct resident *resident, const struct job_desc *desc,
                 struct job_times *out_times, struct error *err);
 

@@ -32,6 +32,7 @@ bool bench_draw(struct renderer *renderer, struct resident *resident, const stru
         *err = *job_error(job);
     }
     job_destroy(job);
+    renderer_forget(renderer);
     return state == JOB_DONE;
 }
 

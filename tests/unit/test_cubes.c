@@ -74,6 +74,8 @@ static void the_one_that_waited_longest_goes(void **state)
     draw(FIELDS - 1, params_of(FIELDS - 1), FIELDS);
     assert_int_equal(draw(0, params_of(0), 1), 1);
     assert_int_equal(draw(1, params_of(1), 2), 0);
+    engine_cubes_forget(kept);
+    assert_int_equal(draw(0, params_of(0), 1), 0);
 }
 
 /* Two pictures at once, and none twice. */
