@@ -99,6 +99,7 @@ const waitedMs = (pid) =>
 const restarts = (daemon) => counter(daemon, 'worker_restarts_total');
 const errors = (live) => live.messages.filter((m) => m.type === 'notice' && m.level === 'error');
 
+// It stands first: behind the others, whose cache it shares, the scene is not always left out.
 test('a scene whose smallest part takes too long is suspended with its measure', async () => {
     const daemon = await start('--tile-time', '900');
     const live = await open(daemon, 'heavy', DRAW_HARDLY, SMALL);
