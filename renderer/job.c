@@ -80,14 +80,16 @@ static void choose_width(struct job *job)
 static struct draw_scene scene_of(const struct job *job)
 {
     struct snapshot *snapshot = job->snapshot;
-    struct program *program = job->bridged ? NULL : snapshot->program;
+    struct program *program = job->bridged ? NULL : snapshot_program(snapshot);
 
     return (struct draw_scene){
         .program = program,
         .params = program ? snapshot_params(job->renderer, snapshot) : NULL,
         .environment = snapshot->environment,
         .values = snapshot->field->params,
-        .engine = job->bridged ? snapshot->bridge : snapshot->engine,
+        .engine = program            ? NULL
+                  : snapshot->bridge ? snapshot->bridge
+                                     : snapshot->engine,
     };
 }
 

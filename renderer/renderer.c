@@ -76,7 +76,9 @@ static bool open_device(struct renderer *renderer, struct error *err)
         return true;
     }
     if (shades || params->device.kind != DEVICE_AUTO || params->device.index >= 0) {
-        *err = why;
+        if (err) {
+            *err = why;
+        }
         return false;
     }
     renderer_log(renderer, "no device, so the engine draws: %s", why.message);

@@ -271,11 +271,12 @@ void snapshots_settle(struct renderer *renderer)
     }
 }
 
-/* The engine draws a field until its program is compiled, so that an edit is seen at once. */
+/* The engine draws a field until its program is compiled, so that an edit is seen at once; and for
+ * good where the driver refuses the program. */
 static void bridge(struct renderer *renderer, struct snapshot *snapshot,
                    const struct snapshot *before)
 {
-    if (program_state(snapshot->program) == PROGRAM_PENDING) {
+    if (program_state(snapshot->program) != PROGRAM_READY) {
         snapshot->bridge = before && before->bridge
                                ? engine_program_ref(before->bridge)
                                : engine_program_create(snapshot->field, renderer->params.lanes,
@@ -347,34 +348,37 @@ uint64_t snapshot_structure_with_code(const struct snapshot *snapshot)
     return snapshot->field->user_code ? snapshot->structure_hash : 0;
 }
 
-/* Besides its program. */
-static const struct error *own_error(const struct snapshot *snapshot)
+const struct error *snapshot_error(const struct snapshot *snapshot)
 {
     return snapshot->error.kind != ERROR_NONE ? &snapshot->error : trial_error(snapshot->trial);
 }
 
-enum program_state snapshot_state(const struct snapshot *snapshot)
+static bool is_compiling(const struct snapshot *snapshot)
 {
-    const enum program_state state =
-        snapshot->program ? program_state(snapshot->program) : PROGRAM_READY;
-    const bool waits = snapshot->picture || !trial_is_over(snapshot->trial);
-
-    return own_error(snapshot)->kind != ERROR_NONE ? PROGRAM_FAILED
-           : waits && state == PROGRAM_READY       ? PROGRAM_PENDING
-                                                   : state;
+    return snapshot->program && program_state(snapshot->program) == PROGRAM_PENDING;
 }
 
-const struct error *snapshot_error(const struct snapshot *snapshot)
+enum program_state snapshot_state(const struct snapshot *snapshot)
 {
-    const struct error *own = own_error(snapshot);
+    const bool waits =
+        is_compiling(snapshot) || snapshot->picture || !trial_is_over(snapshot->trial);
 
-    return own->kind != ERROR_NONE || !snapshot->program ? own : program_error(snapshot->program);
+    return snapshot_error(snapshot)->kind != ERROR_NONE ? PROGRAM_FAILED
+           : waits                                      ? PROGRAM_PENDING
+                                                        : PROGRAM_READY;
+}
+
+struct program *snapshot_program(const struct snapshot *snapshot)
+{
+    return snapshot->program && program_state(snapshot->program) == PROGRAM_READY
+               ? snapshot->program
+               : NULL;
 }
 
 bool snapshot_is_bridged(const struct snapshot *snapshot)
 {
     return snapshot->bridge && !snapshot->picture && snapshot->error.kind == ERROR_NONE &&
-           program_state(snapshot->program) == PROGRAM_PENDING;
+           is_compiling(snapshot);
 }
 
 struct warning snapshot_warning(const struct snapshot *snapshot)

@@ -26,7 +26,8 @@ struct snapshot {
     uint32_t environment_us;         /* time that it took */
     bool fewer_steps;                /* than the scene asks for: the driver's bound on loops */
     struct engine_program *engine;   /* NULL: the device draws it */
-    struct engine_program *bridge;   /* what draws while `program` is compiled; NULL: nothing */
+    struct engine_program *bridge;   /* what draws while `program` is compiled, and for good where
+                                      * the driver refuses it; NULL: nothing */
     struct trial *trial;             /* of users' code that the engine draws; NULL: has none */
     struct warning warning; /* of users' code, when the program was new, or of the environment's
                              picture; ERROR_NONE: nothing */
@@ -50,9 +51,12 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
 struct scene_bounds snapshot_bounds(const struct field *field, const struct record *camera,
                                     bool limit_loops);
 struct snapshot *snapshot_ref(struct snapshot *snapshot);
-/* Of its program, of users' code, and of the picture that its environment is made of. */
+/* Of its program, of users' code, and of the picture that its environment is made of. A program that
+ * the driver refuses is no failure: the engine draws. */
 enum program_state snapshot_state(const struct snapshot *snapshot);
 const struct error *snapshot_error(const struct snapshot *snapshot); /* PROGRAM_FAILED: why */
+/* What the device draws it by, once it is compiled; NULL: the engine draws it. */
+struct program *snapshot_program(const struct snapshot *snapshot);
 /* Whether its program is all that it waits for, and the engine can draw it until then. */
 bool snapshot_is_bridged(const struct snapshot *snapshot);
 /* Of its code or its picture; ERROR_NONE: nothing, as far as is known. */

@@ -154,6 +154,7 @@ struct program *program_cache_find(struct program_cache *cache, uint64_t structu
 struct program *program_cache_add(struct program_cache *cache, const struct program_source *source)
 {
     struct program *program = memory_alloc(1, sizeof *program);
+    struct error err = {0};
 
     program->cache = cache;
     program->structure_hash = source->structure_hash;
@@ -174,7 +175,8 @@ struct program *program_cache_add(struct program_cache *cache, const struct prog
                                         : STAGE_VOLUME;
     program->refs = 1;
     program->added_ms = now_ms();
-    if (!program_cache_start(cache, &program->error)) {
+    if (!program_cache_start(cache, &err)) {
+        program_refuse(program, &err);
         program->state = PROGRAM_FAILED;
         program->taken = program->done = program->stages;
     }

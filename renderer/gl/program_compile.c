@@ -120,12 +120,25 @@ static void warm_up(const struct program_cache *cache, const struct warm_targets
     gl->DeleteBuffers(1, &frame);
 }
 
+void program_refuse(struct program *program, const struct error *err)
+{
+    const struct gl_sink *sink = program->cache->sink;
+    char line[sizeof *err + 64];
+
+    program->error = *err;
+    if (sink->log) {
+        snprintf(line, sizeof line, "the driver refuses a program, so the engine draws: %s%s%s",
+                 err->place, *err->place ? ": " : "", err->message);
+        sink->log(sink->data, line);
+    }
+}
+
 /* The state follows from the stages once none is left. */
 static void finish_stage(struct program_cache *cache, struct program *program,
                          const struct error *err)
 {
     if (err->kind != ERROR_NONE && program->error.kind == ERROR_NONE) {
-        program->error = *err;
+        program_refuse(program, err);
     }
     cache->compilations++;
     if (++program->done == program->stages) {

@@ -74,6 +74,8 @@ int64_t program_usual_ms(const struct program *program);
 void program_limit_begin(struct compiler *compiler);
 void program_limit_end(struct program_cache *cache, struct program *program);
 
+/* Its first error, which is told to the log. Under the lock, or before it is anybody's else. */
+void program_refuse(struct program *program, const struct error *err);
 /* The life of a compiling thread; `data` is its struct compiler. */
 void *program_compile_main(void *data);
 
