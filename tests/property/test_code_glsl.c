@@ -54,14 +54,22 @@ static void run_if_full(struct code_batch *batch)
 
 static const char *const vectors[] = {"", "float", "vec2", "vec3", "vec4"};
 
-/* An argument of so many components, different for each place. */
+/* An argument of so many components, different for each place: what a GPU makes of `mod(x, x)` is 0
+ * or x, as its quotients are rounded. */
 static void write_argument(FILE *out, const char *type, int rows, int place)
 {
-    static const char *const parts[] = {"p.x", "p.y", "p.z * 0.5 + 0.25", "p.x * 0.75 - p.z"};
+    static const char *const parts[] = {"p.x",
+                                        "p.y",
+                                        "p.z * 0.5 + 0.25",
+                                        "p.x * 0.75 - p.z",
+                                        "p.x + 0.6 * p.y",
+                                        "p.z - 0.3 * p.y",
+                                        "p.y * 0.9 - p.x"};
+    enum { PARTS = sizeof parts / sizeof parts[0] };
 
     fprintf(out, "%s(", type);
     for (int i = 0; i < rows; i++) {
-        fprintf(out, "%s%s", i > 0 ? ", " : "", parts[(i + place) % 4]);
+        fprintf(out, "%s%s", i > 0 ? ", " : "", parts[(i + place) % PARTS]);
     }
     fputc(')', out);
 }

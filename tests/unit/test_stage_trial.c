@@ -105,7 +105,7 @@ static void what_is_not_of_this_device_is_not(void **state)
 static int start(void **state)
 {
     struct renderer_params params = {
-        .device = {.kind = DEVICE_SOFTWARE, .index = -1}, .stage = RENDER_COMPUTE, .log = on_log};
+        .device = {.index = -1}, .stage = RENDER_COMPUTE, .log = on_log};
 
     (void)state;
     if (!mkdtemp(folder)) {
