@@ -12,6 +12,11 @@ enum {
     PACE_WRONG_US = 1600000, /* so slow a tile is begun anew, with its row, in smaller ones */
 };
 
+static int larger(int a, int b)
+{
+    return a > b ? a : b;
+}
+
 static int smaller(int a, int b)
 {
     return a < b ? a : b;
@@ -53,11 +58,19 @@ static int part_of(int length, int side)
 static void begin_row(struct job *job, int y)
 {
     const struct draw *draw = job->renderer->draw;
+    const int left = larger(job->region.width, job->region.height - y);
     struct pace_row pace = pace_begin(job->pace, company_of(job), job->level);
-    const int side = draw_tile_side(draw, &job->picture, pace.doublings);
+    int side = draw_tile_side(draw, &job->picture, pace.doublings);
 
-    while (pace.doublings > 0 && draw_tile_side(draw, &job->picture, pace.doublings - 1) == side) {
-        pace.doublings--; /* the largest */
+    /* A side beyond the largest, or beyond what is left, makes no other tile: were it halved, that
+     * would help nobody. */
+    while (pace.doublings > 0) {
+        const int half = draw_tile_side(draw, &job->picture, pace.doublings - 1);
+        if (half < side && half < left) {
+            break;
+        }
+        pace.doublings--;
+        side = half;
     }
     job->row = (struct row){.y = y,
                             .side = side,

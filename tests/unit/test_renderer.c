@@ -14,6 +14,7 @@
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "renderer/code/code.h"
+#include "renderer/job_internal.h"
 #include "renderer/pick.h"
 #include "renderer/renderer_internal.h"
 #include "tests/support/drawing.h"
@@ -668,6 +669,23 @@ static void programs_are_cached(void **state)
     resident_destroy(second);
 }
 
+/* Else the side of a slow picture's only tile is halved in vain, again and again. */
+static void tiles_are_no_larger_than_the_picture(void **state)
+{
+    const struct job_desc desc = {.width = 12, .height = 8, .samples = 1, .exact = true};
+    struct resident *resident = make_resident(document);
+    struct job *job = job_create(resident, &desc, NULL);
+
+    (void)state;
+    while (job_step(job) == JOB_WAITING) {
+        renderer_poll(renderer, 100);
+    }
+    assert_in_range(job->row.side, 12, 16);
+    assert_int_equal(job->row.pace.doublings, 1);
+    job_destroy(job);
+    resident_destroy(resident);
+}
+
 /* Loops within loops, more steps than llvmpipe's budget: the picture is drawn with fewer steps, and
  * the log says so. */
 static void loop_budget(void **state)
@@ -881,6 +899,7 @@ int main(void)
         cmocka_unit_test(pictures_are_not_torn),
         cmocka_unit_test(cancelled_jobs_leave_no_trace),
         cmocka_unit_test(odd_sizes_are_drawn),
+        cmocka_unit_test(tiles_are_no_larger_than_the_picture),
         cmocka_unit_test(picking_agrees),
         cmocka_unit_test(shapes_beyond_compilers),
         cmocka_unit_test(code_beyond_compilers),
