@@ -154,6 +154,17 @@ static bool is_reflective(const struct field *field)
     return false;
 }
 
+static bool has_estimates(const struct field *field)
+{
+    for (size_t i = 0; i < field->instruction_count; i++) {
+        const struct field_instruction *in = &field->instructions[i];
+        if (in->op == FIELD_SHAPE && in->choices == FIELD_POLYNOMIAL) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* `limit_loops`: the driver ends long ones. */
 struct scene_bounds snapshot_bounds(const struct field *field, const struct record *camera,
                                     bool limit_loops)
@@ -161,6 +172,7 @@ struct scene_bounds snapshot_bounds(const struct field *field, const struct reco
     struct scene_bounds extent = {.scale = scene_scale(camera),
                                   .transmissive = field->transmissive,
                                   .reflective = is_reflective(field),
+                                  .estimates = has_estimates(field),
                                   .loop_trips = (int)field->loop_trips,
                                   .limit_loops = limit_loops};
 

@@ -51,8 +51,8 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
 struct scene_bounds snapshot_bounds(const struct field *field, const struct record *camera,
                                     bool limit_loops);
 struct snapshot *snapshot_ref(struct snapshot *snapshot);
-/* Of its program, of users' code, and of the picture that its environment is made of. A program that
- * the driver refuses is no failure: the engine draws. */
+/* Of its program, of users' code, and of the picture that its environment is made of. A program
+ * that the driver refuses is no failure: the engine draws. */
 enum program_state snapshot_state(const struct snapshot *snapshot);
 const struct error *snapshot_error(const struct snapshot *snapshot); /* PROGRAM_FAILED: why */
 /* What the device draws it by, once it is compiled; NULL: the engine draws it. */

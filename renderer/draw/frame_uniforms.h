@@ -15,6 +15,7 @@ struct scene_bounds {
     double transmissive_min[3], transmissive_max[3]; /* of what light goes through */
     bool transmissive;                               /* whether there is any */
     bool reflective;  /* something reflects, or light goes through it */
+    bool estimates;   /* some shapes estimate their distance: glsl/field_mask.glsl */
     double scale;     /* size of what is of interest; occlusion reaches a part */
     int loop_trips;   /* loop iterations in one evaluation */
     bool limit_loops; /* the driver counts iterations: llvmpipe stops at 65,535 */

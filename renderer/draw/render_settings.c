@@ -24,7 +24,7 @@ static int own_or(const struct record *render, const char *name, int level)
 static bool set_steps(struct frame_uniforms *block, int wanted, int wanted_shadow,
                       const struct scene_bounds *extent)
 {
-    const int each = 1 + extent->loop_trips;
+    const int each = 1 + extent->loop_trips, twice = extent->estimates ? 2 : 1;
     const int lights = block->light_count > 0 ? block->light_count : 1;
     const int rounds = block->has_transmissive ? 2 : 1; /* of a ray inside, for each step */
     int steps = wanted, shadow_steps = wanted_shadow;
@@ -32,7 +32,8 @@ static bool set_steps(struct frame_uniforms *block, int wanted, int wanted_shado
     if (extent->limit_loops) {
         /* Eight points for the normal, and one evaluation of the surface. */
         const int most = (LOOP_BUDGET / each - 9) / rounds;
-        const int most_shadow = (LOOP_BUDGET / each - block->occlusion_samples) / lights - 1;
+        const int most_shadow =
+            (LOOP_BUDGET / each - block->occlusion_samples) / lights / twice - 1;
         steps = most < steps ? most : steps;
         shadow_steps = most_shadow < shadow_steps ? most_shadow : shadow_steps;
     }
@@ -104,7 +105,8 @@ static void set_samples(struct render_settings *settings, struct frame_uniforms 
 }
 
 static void set_effects(struct render_settings *settings, struct frame_uniforms *block,
-                        const struct record *render, const struct quality *q, bool transparent)
+                        const struct record *render, const struct quality *q,
+                        const struct scene_bounds *extent, bool transparent)
 {
     const bool rays =
         settings->reflective && (is_on(render, "reflections") || is_on(render, "refractions"));
@@ -118,7 +120,8 @@ static void set_effects(struct render_settings *settings, struct frame_uniforms 
                      (is_on(render, "shadows") ? EFFECT_SHADOWS : 0) |
                      (is_on(render, "reflections") ? EFFECT_REFLECTIONS : 0) |
                      (is_on(render, "refractions") ? EFFECT_REFRACTIONS : 0) |
-                     (transparent ? EFFECT_TRANSPARENT : 0) | (pictured ? EFFECT_CURVATURE : 0);
+                     (transparent ? EFFECT_TRANSPARENT : 0) | (pictured ? EFFECT_CURVATURE : 0) |
+                     (extent->estimates ? EFFECT_ESTIMATES : 0);
     block->min_throughput = (float)q->min_throughput;
     settings->rays = block->ray_depth ? q->rays : 0;
     settings->transmission_depth = is_on(render, "shadows") ? q->transmission_depth : 0;
@@ -137,7 +140,7 @@ bool render_settings_make(struct render_settings *out_settings, struct frame_uni
 
     frame_uniforms_set_section(block, &request->section);
     set_samples(&settings, block, render, q, level, request->samples);
-    set_effects(&settings, block, render, q,
+    set_effects(&settings, block, render, q, extent,
                 request->transparent >= 0 ? request->transparent : is_on(render, "transparent"));
     settings.sparse = request->sparse && settings.samples == 1;
     *out_settings = settings;

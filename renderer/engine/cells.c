@@ -231,6 +231,7 @@ static void cell_split(struct lanes *c, int32_t index, float mask)
 {
     struct machine *const v = c->machine;
     const vf asked = c->field_mask_0;
+    const vb estimates = c->field_estimates_0;
     const int32_t children = (int32_t)c->cells->count;
     const struct cell parent = c->cells->at[index];
     const float half = 0.5f * parent.half;
@@ -252,6 +253,7 @@ static void cell_split(struct lanes *c, int32_t index, float mask)
         }
     }
     c->field_mask_0 = vf_all(mask);
+    c->field_estimates_0 = vb_all(false);
     for (int first = 0; first < 8; first += LANES) {
         vf centre[3] = {0};
         for (int k = 0; k < LANES; k++) {
@@ -271,6 +273,7 @@ static void cell_split(struct lanes *c, int32_t index, float mask)
         }
     }
     c->field_mask_0 = asked;
+    c->field_estimates_0 = estimates;
 }
 
 /* Whether smaller cubes would be worth it. */

@@ -77,8 +77,8 @@ static vf looseness(const struct machine *v, const struct operation *in)
         return vf_zero;
     }
     const float *cut = v->c->own + 4 * (FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S);
-    const float unsteady = cut[FIELD_UNSTEADY];
-    return vf_select(v->d[in->a] - v->radius > unsteady, vf_zero, vf_all(2.0f * unsteady));
+    return vf_select(v->d[in->a] - v->radius > cut[FIELD_UNSTEADY], vf_zero,
+                     vf_all(cut[FIELD_LOOSE]));
 }
 
 static const struct operation_kind *kind_of(const struct machine *v, const struct operation *in)

@@ -94,9 +94,16 @@ enum {
 #define FIELD_FAR 1e9 /* empty space is this far away, as in glsl/field_mask.glsl */
 
 /* Behind the head of a shape of a user's code, which takes two vec4s: (half of the box that cuts
- * it, scale), (unsteady, 0, 0, 0), then what it declares. Distances above `unsteady` alone change
- * no faster than the way, none is below minus it: see equation_unsteady(). 0: all are steady. */
-enum { FIELD_HEAD_VEC4S = 2, FIELD_CUT_VEC4S = 2, FIELD_CUT_NUMBERS = 5, FIELD_UNSTEADY = 4 };
+ * it, scale), (unsteady, loose, 0, 0), then what it declares. Distances above `unsteady` alone
+ * change no faster than the way, others may differ by `loose` more; none is below minus `unsteady`:
+ * see equation_unsteady() and, for estimates, polynomial.h. 0: all are steady. */
+enum {
+    FIELD_HEAD_VEC4S = 2,
+    FIELD_CUT_VEC4S = 2,
+    FIELD_CUT_NUMBERS = 6,
+    FIELD_UNSTEADY = 4,
+    FIELD_LOOSE = 5,
+};
 #define FIELD_UNCUT 1e9 /* half of a box without an end */
 /* Behind these of a polynomial: the numbers of renderer/sdf/polynomial.h. */
 #define FIELD_POLYNOMIAL UINT32_MAX

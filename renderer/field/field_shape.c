@@ -113,6 +113,7 @@ static struct bounds fill_cut(const struct field_call *call, double scale,
     }
     out_cut[3] = scale;
     out_cut[FIELD_UNSTEADY] = equation_unsteady(call->extent) * scale;
+    out_cut[FIELD_LOOSE] = 2 * out_cut[FIELD_UNSTEADY];
     return box;
 }
 
@@ -129,7 +130,7 @@ static void fill_form(const struct field_call *call, const double *numbers, int 
                                               call->form.sheet ? thickness : -1,
                                               degree,
                                               polynomial_rest_rows(degree),
-                                              EQUATION_MARGIN * call->extent,
+                                              POLYNOMIAL_ESTIMATE,
                                               EQUATION_REACH,
                                               call->form.sheet ? thickness / 16 : 0,
                                               0};
@@ -149,6 +150,8 @@ static struct result emit_polynomial(struct builder *b, const struct node *node,
     double declared[SDF_NUMBERS_MAX], cut[FIELD_CUT_NUMBERS], head[FIELD_HEAD_NUMBERS];
     double c[POLYNOMIAL_COEFFICIENTS_MAX], *numbers = memory_alloc((size_t)count, sizeof *numbers);
     const struct bounds box = fill_cut(call, frame->scale, cut);
+    cut[FIELD_LOOSE] = POLYNOMIAL_ESTIMATE * call->extent * frame->scale;
+    cut[FIELD_UNSTEADY] = hypot(POLYNOMIAL_ESTIMATE, EQUATION_REACH) * call->extent * frame->scale;
     fill_head(b, frame, 1, number, head);
     sdf_numbers(call->params, call->values, declared);
     fill_form(call, declared, degree, numbers);

@@ -8,6 +8,10 @@ const float FAR = 1e9;
  * those that it does not go through are. */
 float field_mask = 0.0;
 
+/* Whether shapes that know but a lower bound of their distance give an estimate of it instead: what
+ * comes near a ray is judged by that, steps are by the bound. */
+bool field_estimates = false;
+
 /* The distance of a shape that may be away; `transmissive` and `away` are the last numbers of its
  * head. */
 float masked(float d, float transmissive, float away)

@@ -28,7 +28,8 @@
     X(EFFECT_SUN, 8)                                                                               \
     X(EFFECT_TRANSPARENT, 16)                                                                      \
     X(EFFECT_CURVATURE, 32) /* of surfaces is wanted */                                            \
-    X(EFFECT_SECTION, 64)
+    X(EFFECT_SECTION, 64)                                                                          \
+    X(EFFECT_ESTIMATES, 128) /* some shapes estimate their distance: field_mask.glsl */
 /* The samples that a dispatch is for. */
 #define PASS_MODES(X)                                                                              \
     X(PASS_TILE)   /* all of the tile's */                                                         \

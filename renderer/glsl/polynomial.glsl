@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Surfaces by polynomials (renderer/sdf/polynomial.h), as in renderer/sdf/polynomial.c. */
 
+#include "field_mask.glsl"
 #include "params.glsl"
 
-/* Around p up to the third order: (value, bounds of the first, second and third order). Series in
- * the ways along x, y and z are cut at that order: `s` in z, `r` in y and z, `a` in all. */
-vec4 polynomial_orders(vec3 p, int at, int degree)
+/* Around p up to the third order: (value, bounds of the first, second and third order), and the
+ * second order along the gradient. Series in the ways along x, y and z are cut at that order: `s`
+ * in z, `r` in y and z, `a` in all. */
+vec4 polynomial_orders(vec3 p, int at, int degree, out float along)
 {
     vec4 a0 = vec4(0.0), r0, s, c;
     vec3 a1 = vec3(0.0), a4 = vec3(0.0), r1;
@@ -51,6 +53,8 @@ vec4 polynomial_orders(vec3 p, int at, int degree)
     }
     vec3 first = vec3(a4.x, a1.x, a0.y);
     vec3 even = vec3(a7.x, a2.x, a0.z), odd = vec3(a5.x, a4.y, a1.y);
+    vec3 up = first / max(length(first), 1e-18);
+    along = dot(even, up * up) + dot(odd, vec3(up.x * up.y, up.x * up.z, up.y * up.z));
     vec4 cubes = vec4(a9, a3, a0.w, 0.0);
     vec3 one = vec3(a8, a7.y, a6), two = vec3(a4.z, a2.y, a1.z);
     return vec4(a0.x, length(first), sqrt(dot(even, even) + 0.5 * dot(odd, odd)),
@@ -105,12 +109,21 @@ float polynomial_sheet(float f, vec3 b, float fourth, float thickness, float gra
     return f > begin ? outside : max(half_thickness * (f / begin - 1.0), -half_thickness);
 }
 
-/* Within the clip, in parts of its extent. */
-float polynomial_within(vec3 p, int at)
+/* About how far from a root a polynomial in one variable is, by its value and two derivatives. */
+float polynomial_laguerre(float f, float slope, float bend, float degree)
+{
+    float newton = abs(f) / slope, less = degree - 1.0;
+    float part = less - degree * f * bend / (slope * slope);
+    return degree * newton / (1.0 + sqrt(max(less * part, 0.0)));
+}
+
+/* Within the clip, in parts of its extent; an estimate may be so much more than the bound. */
+float polynomial_within(vec3 p, int at, float more)
 {
     vec4 form = P_FROM(at + 1), steps = P_FROM(at + 2);
     int count = int(form.w), rest = at + 3;
-    vec4 orders = polynomial_orders(p, rest + count, int(form.z));
+    float along;
+    vec4 orders = polynomial_orders(p, rest + count, int(form.z), along);
     vec3 b = max(orders.yzw, 1e-18);
     float f = abs(orders.x), fourth = 0.0, radius = length(p);
     float limit = polynomial_distance(f, b, 0.0, steps.y), d = limit;
@@ -123,10 +136,10 @@ float polynomial_within(vec3 p, int at)
         d = max(less, more);
         fourth = more > less ? other : fourth;
     }
-    if (form.y >= 0.0) {
-        return polynomial_sheet(f, b, fourth, form.y, steps.z, d);
-    }
-    return orders.x < 0.0 ? -d : d;
+    bool sheet = form.y >= 0.0;
+    d = sheet ? polynomial_sheet(f, b, fourth, form.y, steps.z, d) : orders.x < 0.0 ? -d : d;
+    float root = polynomial_laguerre(orders.x, b.x, 2.0 * along, form.z);
+    return d > 0.0 ? clamp(root - (sheet ? 0.5 * form.y : 0.0), d, d + more) : d;
 }
 
 float polynomial(vec3 p, int at)
@@ -136,11 +149,9 @@ float polynomial(vec3 p, int at)
     bool ball = radius > 0.0;
     vec3 near = ball ? p * min(1.0, radius / max(length(p), 1e-18)) : clamp(p, -clip.xyz, clip.xyz);
     float outside = distance(p, near);
-    if (outside > P_FROM(at + 2).x) {
-        return outside;
-    }
+    float more = field_estimates ? max(P_FROM(at + 2).x - outside / clip.w, 0.0) : 0.0;
     vec3 faces = abs(p) - clip.xyz;
     float face = ball ? length(p) - radius : max(faces.x, max(faces.y, faces.z));
-    float d = polynomial_within(near / clip.w, at) * clip.w;
+    float d = polynomial_within(near / clip.w, at, more) * clip.w;
     return outside > 0.0 ? length(vec2(outside, max(d, 0.0))) : max(d, face);
 }

@@ -66,10 +66,11 @@ vec2 turning_point(vec2 a, vec2 b, vec2 c, vec2 d)
 /* The part seen of a light's disc follows from the least ratio of distance to way (Quilez: Soft
  * shadows in raymarched SDFs, 2010): from 1 / k on, all of it. It is dark within the hard shadow,
  * so that nothing thin lets light through. Between two samples the ratio may be less than at both,
- * which showed as rings: where it seems to turn the ray looks again. False at the end. */
-bool soft_step(inout ShadowRay s, float d)
+ * which showed as rings: where it seems to turn the ray looks again. Steps are by d, which may be
+ * but a bound of the distance; `known` is what is known of the distance. False at the end. */
+bool soft_step(inout ShadowRay s, float d, float known)
 {
-    vec2 now = vec2(1.0, d) / s.x, turn = turning_point(s.a, s.b, s.c, now);
+    vec2 now = vec2(1.0, known) / s.x, turn = turning_point(s.a, s.b, s.c, now);
     bool inside = s.x <= s.far;
     s.visibility = inside ? min(s.visibility, s.k * now.y) : s.visibility;
     bool dark = inside && (d < 0.05 * s.footprint || s.visibility < 0.01);
@@ -123,6 +124,8 @@ float visible(Sight sight, int kind, int steps)
     ShadowRay s = shadow_ray_begin(sight.near, sight.far, sight.footprint, sight.sharpness,
                                    sight.lambert, sight.lift);
     float x = kind == SIGHT_OPEN ? occlusion_place(0, sight.near) : sight.near, dark = 0.0;
+    float bound = 0.0;
+    bool estimates = (frame.effects & EFFECT_ESTIMATES) != 0 && kind != SHADOW_HARD;
 
     for (int i = zero; i < steps; i++) {
         vec3 p = sight.origin + sight.direction * x;
@@ -131,11 +134,21 @@ float visible(Sight sight, int kind, int steps)
             i--;
             continue;
         }
+        /* What would darken is looked at again. */
+        if (estimates && !field_estimates && d > 0.0 &&
+            d < x * (kind == SIGHT_OPEN ? 1.0 : 1.0 / s.k)) {
+            bound = d;
+            field_estimates = true;
+            i--;
+            continue;
+        }
+        bound = field_estimates ? bound : d;
+        field_estimates = false;
         if (kind == SIGHT_OPEN) {
             dark += clamp(1.0 - d / x, 0.0, 1.0);
             x = occlusion_place(i + 1, sight.near);
         } else {
-            bool on = kind == SHADOW_HARD ? hard_step(s, d) : soft_step(s, d);
+            bool on = kind == SHADOW_HARD ? hard_step(s, d) : soft_step(s, bound, d);
             x = s.x;
             if (!on) {
                 break;

@@ -258,9 +258,6 @@ double polynomial_distance(const double p[3], const double *n)
         face = fmax(face, radius > 0 ? length - radius : fabs(p[i]) - n[i]);
         near[i] /= extent;
     }
-    if (sqrt(square) > n[8]) {
-        return sqrt(square);
-    }
     const double d = within(near, n) * extent;
     return square > 0 ? hypot(sqrt(square), fmax(d, 0)) : fmax(d, face);
 }
@@ -268,7 +265,7 @@ double polynomial_distance(const double p[3], const double *n)
 /* Behind the numbers of the cut. */
 static double shape(const double p[3], const double *n)
 {
-    enum { CUT_NUMBERS = 5 };
+    enum { CUT_NUMBERS = 6 };
     return polynomial_distance(p, n + CUT_NUMBERS);
 }
 

@@ -13,6 +13,10 @@
  * B_m R^(m - n), where B_m are the norms of the polynomial's own orders: numbers of the field. Up
  * to degree 9 rays take hardly more steps by this than with all orders, at degree 12 a third more.
  *
+ * It is asked within the clip alone, at the point of the clip that is nearest. What is in the clip
+ * lies beyond that point, at a right angle or more, so outside both ways together, as the sides of
+ * a right angle, are no longer than the distance.
+ *
  * Coordinates are parts of the clip's extent: all are at most 1, so no power is large, and floats
  * have digits enough. Double precision here; glsl/polynomial.glsl is the same in floats. */
 #ifndef RENDERER_SDF_POLYNOMIAL_H
@@ -23,11 +27,17 @@
 /* The numbers, four in each row:
  *     half of the box, extent of the clip
  *     radius of the ball (0: a box), thickness / extent (-1: solid), degree, rows for the rest
- *     way to the clip beyond which that is the distance, longest step / extent, grain / extent, 0
+ *     POLYNOMIAL_ESTIMATE, longest step / extent, grain / extent, 0
  *     the rest: C(m, 4) B_m, the highest m first, behind zeros
  *     for each power of x, the highest first: (powers of y, 0, 0, 0), and of each of them
  *     (further rows, c, c, c), (c, c, c, c), ...: coefficients of powers of z, behind zeros. */
 enum { POLYNOMIAL_HEAD = 3, POLYNOMIAL_DEGREE_MAX = 18, POLYNOMIAL_COEFFICIENTS_MAX = 1330 };
+
+/* An estimate of the distance, where that is more than the bound, is Laguerre's step along the
+ * gradient (Press et al., Numerical Recipes, 9.5), which is right next to the surface and where all
+ * roots seem to be one. It is at most this part of the extent more, and less by the way to the
+ * clip. */
+#define POLYNOMIAL_ESTIMATE 0.5
 
 /* Of terms that have at most this degree: rows of numbers. */
 size_t polynomial_rows(int degree);

@@ -65,6 +65,7 @@ static void write_argument(FILE *out, const char *type, int rows, int place)
                                         "p.x + 0.6 * p.y",
                                         "p.z - 0.3 * p.y",
                                         "p.y * 0.9 - p.x"};
+
     enum { PARTS = sizeof parts / sizeof parts[0] };
 
     fprintf(out, "%s(", type);
