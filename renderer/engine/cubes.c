@@ -56,20 +56,27 @@ void engine_cubes_destroy(struct engine_cubes *cubes)
     }
 }
 
-/* Of the numbers of shapes and operations: materials change no distance. Others have another hash
- * but for one time in 2^64. */
-static uint64_t hash_of(const struct engine_program *program, const float *params)
+/* From one vec4 of the numbers to before another. */
+static uint64_t hash_span(uint64_t hash, const float *params, size_t from, size_t end)
 {
-    const size_t pairs = 2 * program->field->material_base;
-    uint64_t hash = pairs;
-
-    for (size_t i = 0; i < pairs; i++) {
+    for (size_t i = 2 * from; i < 2 * end; i++) {
         uint64_t pair;
         memcpy(&pair, params + 2 * i, sizeof pair);
         hash = (hash ^ pair) * UINT64_C(0x9e3779b97f4a7c15);
         hash ^= hash >> 32;
     }
     return hash;
+}
+
+/* Of the numbers of shapes and operations, and of lists of points, which lie behind the materials:
+ * these change no distance. Others have another hash but for one time in 2^64. */
+static uint64_t hash_of(const struct engine_program *program, const float *params)
+{
+    const struct field *field = program->field;
+    const size_t materials = (field->material_count + 2) * field->material_stride;
+    const uint64_t hash = hash_span(field->vec4_count, params, 0, field->material_base);
+
+    return hash_span(hash, params, field->material_base + materials, field->vec4_count);
 }
 
 struct cubes *cubes_take(struct engine_cubes *kept, const struct engine_program *program,

@@ -55,6 +55,30 @@ static void same_shapes_find_theirs(void **state)
     free(other);
 }
 
+/* A list of points lies behind the materials. */
+static void other_points_find_none(void **state)
+{
+    struct error err = {0};
+    struct scene *scene = json_text_valid_scene(
+        "{'format':'fieldcast/1','root':{'id':'r','type':'polygon'}}");
+    struct field *field = field_compile(scene, &err);
+
+    (void)state;
+    assert_non_null(field);
+    struct engine_program *program = engine_program_create(field, 0, 1);
+    struct engine_program *before = programs[0];
+    const size_t points = 4 * (field->material_base + 2 * field->material_stride);
+    programs[0] = program;
+    assert_int_equal(draw(0, field->params, 1), 0);
+    assert_int_equal(draw(0, field->params, 1), 1);
+    field->params[points] += 0.25f;
+    assert_int_equal(draw(0, field->params, 1), 0);
+    programs[0] = before;
+    engine_program_destroy(program);
+    field_unref(field);
+    scene_destroy(scene);
+}
+
 static void other_fields_have_their_own(void **state)
 {
     (void)state;
@@ -131,6 +155,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(same_shapes_find_theirs, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(other_points_find_none, set_up, tear_down),
         cmocka_unit_test_setup_teardown(other_fields_have_their_own, set_up, tear_down),
         cmocka_unit_test_setup_teardown(the_one_that_waited_longest_goes, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_was_taken_is_gone, set_up, tear_down),
