@@ -39,6 +39,11 @@ void crash_thread(enum crash_work work)
     thread_work = work;
 }
 
+enum crash_work crash_thread_work(void)
+{
+    return (enum crash_work)thread_work;
+}
+
 enum crash_work crash_of(int exit_status)
 {
     const int work = exit_status - CRASH_STATUS;

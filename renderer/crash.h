@@ -19,6 +19,8 @@ enum { CRASH_STATUS = 64 }; /* exit status, added to an enum crash_work */
 void crash_watch(void);
 /* Sets the work of this thread. */
 void crash_thread(enum crash_work work);
+/* That work, for the threads that are started to help with it. */
+enum crash_work crash_thread_work(void);
 /* The work that an exit status encodes. */
 enum crash_work crash_of(int exit_status);
 

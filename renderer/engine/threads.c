@@ -11,6 +11,7 @@ struct crew {
     struct engine_canvas *canvas;
     const struct engine_work *work;
     int threads;
+    enum crash_work crash;   /* the work of the thread that draws */
     int side, across, count; /* of small tiles; those in a row, and all of them */
     atomic_int next_tile, next_thread;
     atomic_uint_least64_t rays;
@@ -110,6 +111,7 @@ static void *help(void *argument)
 {
     struct crew *crew = argument;
 
+    crash_thread(crew->crash);
     sched_setaffinity(0, sizeof crew->anywhere, &crew->anywhere);
     return take_tiles(crew);
 }
@@ -150,7 +152,7 @@ static int start_helpers(struct crew *crew, pthread_t *threads, int most)
 
 static uint64_t draw(struct engine_canvas *canvas, const struct engine_work *work)
 {
-    struct crew crew = {.canvas = canvas, .work = work};
+    struct crew crew = {.canvas = canvas, .work = work, .crash = crash_thread_work()};
     pthread_t threads[ENGINE_THREADS];
     const int processors = find_processors(&crew), asked = canvas->picture.program->threads;
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* All of the engine that depends on LANES, the width of its vectors. */
 #include "cubes.h"
+#include "renderer/crash.h"
 #include "renderer/image/half.h"
 
 #include "spmd.h"

@@ -20,7 +20,7 @@ export const INCLUDES = {
     'renderer/algebra': ['protocol'],
     'renderer/field': ['protocol', 'renderer/sdf', 'renderer/code', 'renderer/glsl'],
     'renderer/spmd': ['renderer/code', 'renderer/glsl', 'renderer/field'],
-    'renderer/engine': ['protocol', 'renderer/image', 'renderer/code', 'renderer/glsl', 'renderer/field'],
+    'renderer/engine': ['protocol', 'renderer/image', 'renderer/code', 'renderer/glsl', 'renderer/field', 'renderer/crash.h'],
     'renderer/gl': ['protocol', 'renderer/glsl', 'renderer/crash.h', 'renderer/vigil.h'],
     'renderer/draw': [
         'protocol',
