@@ -83,6 +83,12 @@ export function cpuSecondsOf(pid) {
     return (Number(fields[11]) + Number(fields[12])) / 100;
 }
 
+/** The same of a daemon, with what it started, also where that has ended. */
+export const cpuSecondsOfAll = (daemon) =>
+    [daemon.pid, ...childrenOf(daemon.pid)]
+        .map((pid) => textOf(`/proc/${pid}/stat`).split(') ')[1]?.split(' ') ?? [])
+        .reduce((sum, fields) => sum + fields.slice(11, 15).reduce((all, ticks) => all + Number(ticks) / 100, 0), 0);
+
 const statesOf = (pid) =>
     fs.readdirSync(`/proc/${pid}/task`).map((task) => textOf(`/proc/${pid}/task/${task}/stat`).split(') ')[1]?.[0]);
 
