@@ -70,3 +70,11 @@ void memory_close_slot(void *items, size_t count, size_t position)
 
     memmove(slots + position, slots + position + 1, (count - position - 1) * sizeof *slots);
 }
+
+void memory_settle(void)
+{
+    enum { LARGE = 1 << 16 }; /* for joining, and not for a mapping of its own */
+    void *volatile block = malloc(LARGE);
+
+    free(block);
+}

@@ -19,4 +19,8 @@ void *memory_one_more(void *items, size_t count, size_t size);
 void *memory_open_slot(void *items, size_t count, size_t position);
 void memory_close_slot(void *items, size_t count, size_t position);
 
+/* Call it when very many blocks were freed. glibc joins them at the next large allocation, which
+ * then takes tens of milliseconds, and may be one under a lock. */
+void memory_settle(void);
+
 #endif

@@ -134,6 +134,7 @@ void scene_destroy(struct scene *scene)
     record_finish(&scene->environment);
     record_finish(&scene->render);
     free(scene);
+    memory_settle();
 }
 
 void scene_walk(const struct scene *scene,

@@ -305,5 +305,6 @@ struct scene *scene_parse(const char *text, size_t length, struct error *err)
     struct scene *scene = document ? scene_read(document, err) : NULL;
 
     cJSON_Delete(document);
+    memory_settle();
     return scene;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Writing documents so that they read back the same: what is set, in the order of the tables. */
 #include "json.h"
+#include "memory.h"
 #include "scene_internal.h"
 
 void scene_add_record(cJSON *object, const char *name, const struct record *record)
@@ -74,5 +75,6 @@ char *scene_print(const struct scene *scene, bool pretty)
     char *text = json_print(json, pretty);
 
     cJSON_Delete(json);
+    memory_settle();
     return text;
 }

@@ -34,16 +34,17 @@ uint8_t *packet_pack(enum packet_way way, const struct packet *packet, size_t *o
     char *text = json_print(json, false);
     const struct head head = {(uint32_t)packet->kind, (uint32_t)strlen(text),
                               (uint32_t)packet->payload_length};
-    uint8_t *bytes = memory_alloc(sizeof head + head.json_length + head.payload_length, 1);
+    const size_t with = packet->payload ? head.payload_length : 0;
+    uint8_t *bytes = memory_alloc(sizeof head + head.json_length + with, 1);
 
     memcpy(bytes, &head, sizeof head);
     memcpy(bytes + sizeof head, text, head.json_length);
-    if (head.payload_length > 0) {
-        memcpy(bytes + sizeof head + head.json_length, packet->payload, head.payload_length);
+    if (with > 0) {
+        memcpy(bytes + sizeof head + head.json_length, packet->payload, with);
     }
     free(text);
     cJSON_Delete(json);
-    *out_length = sizeof head + head.json_length + head.payload_length;
+    *out_length = sizeof head + head.json_length + with;
     return bytes;
 }
 void packet_reader_finish(struct packet_reader *reader)

@@ -203,7 +203,8 @@ struct packet {
 
 /* Of a packet that was read. */
 void packet_finish(struct packet *packet);
-/* Bytes of a packet, ready to send; caller frees. */
+/* Bytes of a packet, ready to send; caller frees. Where `payload` is NULL, the bytes of its length
+ * are to follow them. */
 uint8_t *packet_pack(enum packet_way way, const struct packet *packet, size_t *out_length);
 /* The object of its members. Caller frees. */
 cJSON *packet_print(enum packet_way way, const struct packet *packet);

@@ -49,6 +49,8 @@
       "Requests refused because their client had its share of large documents waiting")            \
     X(DOCUMENTS_OVER_QUEUE, "documents_over_queue_total", "counter",                               \
       "Requests refused because too many large documents waited")                                  \
+    X(LOCK_LONGEST, "lock_longest_microseconds", "gauge",                                          \
+      "The most processor time that a thread has used while it held the lock of all scenes")       \
     X(PICKS_GIVEN_UP, "picks_given_up_total", "counter",                                           \
       "Picks not answered because their client asked for more")                                    \
     X(IMAGES_OVER_SHARE, "images_over_share_total", "counter",                                     \

@@ -5,15 +5,35 @@
 
 #include "protocol/code_text.h"
 #include "room_state.h"
+#include "server/clock.h"
 
 void hub_lock(struct hub *hub)
 {
     pthread_mutex_lock(&hub->lock);
+    hub->locked_us = clock_thread_us();
+}
+
+/* Under the lock, so that no other thread writes the longest time. */
+static void measure(struct hub *hub)
+{
+    const int64_t us = clock_thread_us() - hub->locked_us;
+
+    if (us > metric_get(&hub->metrics, METRIC_LOCK_LONGEST)) {
+        metric_set(&hub->metrics, METRIC_LOCK_LONGEST, us);
+    }
 }
 
 void hub_unlock(struct hub *hub)
 {
+    measure(hub);
     pthread_mutex_unlock(&hub->lock);
+}
+
+void hub_wait(struct hub *hub, pthread_cond_t *condition)
+{
+    measure(hub);
+    pthread_cond_wait(condition, &hub->lock);
+    hub->locked_us = clock_thread_us();
 }
 
 bool hub_id_is_valid(const char *id)

@@ -34,6 +34,7 @@ struct ws;
 
 struct hub {
     pthread_mutex_t lock;         /* guards everything below that changes */
+    int64_t locked_us;            /* clock_thread_us of its holder when it took the lock */
     pthread_mutex_t load_lock[2]; /* one for light scenes, one for heavy ones; before `lock` */
     pthread_cond_t released;      /* with `lock`: somebody has released a document */
     struct access access;
@@ -66,6 +67,8 @@ struct hub {
 
 void hub_lock(struct hub *hub);
 void hub_unlock(struct hub *hub);
+/* Lets go of the lock until the condition is signalled. */
+void hub_wait(struct hub *hub, pthread_cond_t *condition);
 /* The open room with that id; NULL: none is open. Under the lock. */
 struct room *hub_find_room(const struct hub *hub, const char *id);
 /* Refuse users' code where the server accepts none: false and ERROR_FORBIDDEN, with the place of

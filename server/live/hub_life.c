@@ -215,9 +215,12 @@ static void on_packet(void *data, const struct packet *packet)
 
 /* --- time --- */
 
-/* Scenes that nobody has looked at for a while leave memory, once all is committed. */
-static void close_idle_rooms(struct hub *hub, int64_t now_ms)
+/* Scenes that nobody has looked at for a while leave memory, once all is committed: the list of
+ * those that the caller destroys without the lock. */
+static struct room *close_idle_rooms(struct hub *hub, int64_t now_ms)
 {
+    struct room *closed = NULL;
+
     for (struct room *room = hub->rooms, *next; room; room = next) {
         next = room->next;
         if (room->sessions || room->pending || room->holds ||
@@ -231,13 +234,26 @@ static void close_idle_rooms(struct hub *hub, int64_t now_ms)
         }
         poster_store(room);
         hub_remove_room(hub, room);
+        room->next = closed;
+        closed = room;
+    }
+    return closed;
+}
+
+static void destroy_rooms(struct room *room)
+{
+    while (room) {
+        struct room *next = room->next;
+
         room_destroy(room);
+        room = next;
     }
 }
 
 static int64_t on_tick(void *data, int64_t now_ms)
 {
     struct hub *hub = data;
+    struct room *closed = NULL;
 
     hub_lock(hub);
     int64_t next = render_queue_tick(hub, now_ms);
@@ -252,10 +268,11 @@ static int64_t on_tick(void *data, int64_t now_ms)
         next = clock_earlier(next, now_ms + ASSETS_LOOK_MS);
     }
     if (now_ms >= hub->next_cleaning) {
-        close_idle_rooms(hub, now_ms);
+        closed = close_idle_rooms(hub, now_ms);
         hub->next_cleaning = now_ms + 5000;
     }
     hub_unlock(hub);
+    destroy_rooms(closed);
     return next;
 }
 

@@ -129,7 +129,7 @@ struct room *hub_lock_room_to_change(struct hub *hub, const char *id, struct err
     struct room *room;
 
     while ((room = hub_lock_room(hub, id, err)) && room->holds > 0) {
-        pthread_cond_wait(&hub->released, &hub->lock);
+        hub_wait(hub, &hub->released);
         hub_unlock(hub);
     }
     return room;
@@ -158,6 +158,7 @@ static void invent_id(const struct hub *hub, char out[LIMIT_ID_BYTES + 1])
 struct room *hub_lock_new_room(struct hub *hub, const char *id, struct scene *scene, char *text,
                                void (*then)(void *data), void *data, struct error *err)
 {
+    struct room *room = room_create(hub, "", scene, 1); /* looks through the scene */
     char name[LIMIT_ID_BYTES + 1];
 
     hub_lock(hub);
@@ -172,15 +173,14 @@ struct room *hub_lock_new_room(struct hub *hub, const char *id, struct scene *sc
     } else if (catalog_find(hub->catalog, name)) {
         error_set(err, ERROR_CONFLICT, "?id", "there is a scene %s already", name);
     } else {
-        struct room *room = room_create(hub, name, scene, 1);
-
+        snprintf(room->id, sizeof room->id, "%s", name);
         add_room(hub, room);
         room_store_new(room, text, then, data);
         metric_set(&hub->metrics, METRIC_SCENES, (int64_t)hub->catalog->count);
         return room;
     }
     hub_unlock(hub);
-    scene_destroy(scene);
+    room_destroy(room);
     free(text);
     return NULL;
 }

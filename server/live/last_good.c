@@ -3,19 +3,20 @@
 
 #include <string.h>
 
+#include "hub.h"
 #include "protocol/code_text.h"
 #include "protocol/json.h"
-#include "room_state.h"
+#include "room_apart.h"
 
-static void drop(struct last_good *good)
+static void drop(struct room *room)
 {
-    scene_destroy(good->scene);
-    good->scene = NULL;
+    room_drop_scene(room->hub, room->last_good.scene);
+    room->last_good.scene = NULL;
 }
 
 void last_good_finish(struct room *room)
 {
-    drop(&room->last_good);
+    scene_destroy(room->last_good.scene);
 }
 
 void last_good_proven(struct room *room, uint64_t revision)
@@ -35,7 +36,7 @@ static void step(struct room *room)
     if (ops && edit_apply(good->scene, ops, NULL, NULL, NULL)) {
         good->revision++;
     } else {
-        drop(good);
+        drop(room);
     }
     cJSON_Delete(ops);
 }
@@ -48,7 +49,8 @@ static bool is_linked(const struct room *room)
 
 static void advance(struct room *room)
 {
-    while (is_linked(room) && room->last_good.revision < room->last_good.proven &&
+    while (room->last_good.readers == 0 && is_linked(room) &&
+           room->last_good.revision < room->last_good.proven &&
            room->last_good.revision < room->revision) {
         step(room);
     }
@@ -62,18 +64,26 @@ static void prove_plain(struct room *room)
     }
 }
 
+bool last_good_is_copied(const struct room *room, const cJSON *ops)
+{
+    const struct last_good *good = &room->last_good;
+    char place[ERROR_PLACE_BYTES];
+
+    return (good->code || (ops && code_text_find(ops, place))) && !is_linked(room) &&
+           !(good->scene && good->proven < room->revision);
+}
+
 void last_good_before_edit(struct room *room, const cJSON *ops)
 {
     struct last_good *good = &room->last_good;
-    char place[ERROR_PLACE_BYTES];
 
-    good->code = good->code || (ops && code_text_find(ops, place));
-    if (!good->code || is_linked(room) || (good->scene && good->proven < room->revision)) {
+    if (!last_good_is_copied(room, ops)) {
         return;
     }
+    good->code = true;
     prove_plain(room);
-    drop(good);
-    good->scene = scene_copy(room->scene);
+    drop(room);
+    good->scene = room_copy(room);
     good->revision = room->revision;
 }
 
@@ -90,7 +100,7 @@ bool last_good_before_replace(struct room *room, bool next_has_code)
     if (good->proven < room->revision) {
         return false;
     }
-    drop(good);
+    drop(room);
     good->scene = room->scene;
     good->revision = room->revision;
     return true;
@@ -106,8 +116,20 @@ void last_good_forget(struct room *room, uint64_t revision)
     if (good->proven >= revision) {
         step(room);
     } else if (good->proven < good->revision) {
-        drop(good);
+        drop(room);
     }
+}
+
+struct scene *last_good_copy(struct room *room, const struct scene *good)
+{
+    room_hold(room);
+    room->last_good.readers++;
+    hub_unlock(room->hub);
+    struct scene *copy = scene_copy(good);
+    hub_lock(room->hub);
+    room->last_good.readers--;
+    room_release(room);
+    return copy;
 }
 
 const struct scene *last_good_state(struct room *room, uint64_t *out_revision)

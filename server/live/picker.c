@@ -158,7 +158,7 @@ static struct scene *copy_scene(struct room *room, const struct picker_field *pi
         return NULL;
     }
     if (good) {
-        return scene_copy(good);
+        return last_good_copy(room, good);
     }
     room_hold(room);
     hub_unlock(room->hub);
@@ -319,7 +319,7 @@ static void *run(void *data)
     hub_lock(picker->hub);
     while (!picker->stop) {
         if (!picker->first) {
-            pthread_cond_wait(&picker->work, &picker->hub->lock);
+            hub_wait(picker->hub, &picker->work);
             continue;
         }
         picker->current = take(picker);

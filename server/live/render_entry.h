@@ -60,9 +60,10 @@ struct render_entry {
     struct render_entry *next;
     uint32_t id;
     struct render_order order;
-    char *account; /* a copy of order.account */
-    int64_t asked; /* clock_ms */
-    int deaths;    /* workers lost to this order, if it belongs to no room */
+    char *account;                  /* a copy of order.account */
+    struct shared_buffer *document; /* has order.document; NULL: there is none */
+    int64_t asked;                  /* clock_ms */
+    int deaths;                     /* workers lost to this order, if it belongs to no room */
     bool sent;
     int64_t deadline;
 };

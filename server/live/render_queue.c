@@ -26,7 +26,7 @@ void render_queue_init(struct render_queue *queue)
 static void entry_destroy(struct render_entry *entry)
 {
     render_request_finish(&entry->order.request);
-    free(entry->order.document);
+    shared_buffer_unref(entry->document);
     free(entry->account);
     free(entry);
 }
@@ -85,11 +85,11 @@ static void send_drop(struct hub *hub, const struct render_entry *entry)
                     &(struct packet){.kind = TO_WORKER_DROP, .state = {.scene = name}});
 }
 
-static void send_scene(struct hub *hub, const struct render_entry *entry)
+/* False: it is not known yet. */
+static bool send_scene(struct hub *hub, const struct render_entry *entry)
 {
     if (entry->order.room) {
-        room_sync_open(entry->order.room);
-        return;
+        return room_sync_open(entry->order.room);
     }
     char name[LIMIT_ID_BYTES + 16];
 
@@ -97,7 +97,8 @@ static void send_scene(struct hub *hub, const struct render_entry *entry)
     scene_name(entry, name);
     const struct packet_scene packet = {
         .scene = name, .revision = 1, .portrait = entry->order.portrait};
-    room_sync_send_scene(hub, &packet, entry->order.document);
+    room_sync_send_scene(hub, &packet, entry->document);
+    return true;
 }
 
 static struct render_demand render_demand(const struct render_order *order)
@@ -134,7 +135,9 @@ static void send_render(struct hub *hub, struct render_entry *entry)
     char name[LIMIT_ID_BYTES + 16];
     const struct room *room = entry->order.room;
 
-    send_scene(hub, entry);
+    if (!send_scene(hub, entry)) {
+        return;
+    }
     scene_name(entry, name);
     supervisor_send(hub->supervisor, &(struct packet){.kind = TO_WORKER_RENDER,
                                                       .render = {
@@ -173,7 +176,7 @@ static void dispatch(struct hub *hub)
             suspect_sent = true;
         }
         send_render(hub, entry);
-        any_sent = true;
+        any_sent |= entry->sent;
     }
 }
 
@@ -217,6 +220,9 @@ uint32_t render_queue_submit(struct hub *hub, struct render_order *order, struct
     entry->id = queue->last_id;
     entry->order = *order;
     entry->account = memory_text(order->account);
+    if (order->document) {
+        entry->document = shared_buffer_take(order->document, strlen(order->document) + 1);
+    }
     entry->asked = clock_ms();
     entry->deadline = entry->asked + RENDER_DEADLINE_MS;
     *queue->end = entry;
@@ -536,5 +542,6 @@ int64_t render_queue_tick(struct hub *hub, int64_t now_ms)
         }
         finish(hub, entry, NULL, &err);
     }
+    dispatch(hub); /* what waited for a document to be printed */
     return next_deadline;
 }

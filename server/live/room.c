@@ -239,9 +239,20 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
     return ROOM_APPLIED;
 }
 
-bool room_undo_is_heavy(const struct room *room, const char *author, bool redo)
+static bool step_is_heavy(const struct room *room, const char *author, bool redo)
 {
     return room_edit_is_heavy(room, history_next(room->history, author, redo));
+}
+
+bool room_edit_releases(const struct room *room, const cJSON *ops)
+{
+    return room_edit_is_heavy(room, ops) || (room_is_heavy(room) && last_good_is_copied(room, ops));
+}
+
+bool room_undo_releases(const struct room *room, const char *author, bool redo)
+{
+    return step_is_heavy(room, author, redo) ||
+           (room_is_heavy(room) && last_good_is_copied(room, NULL));
 }
 
 /* Applies the newest step of the author; the other stack has what takes it back then. */
@@ -249,7 +260,7 @@ static bool move_step(struct room *room, const struct room_change *change, bool 
                       struct history_move *move, struct room_work *work, struct error *err)
 {
     const struct room_order order = {
-        .change = change, .move = move, .heavy = room_undo_is_heavy(room, change->author, redo)};
+        .change = change, .move = move, .heavy = step_is_heavy(room, change->author, redo)};
     const bool ok = check_open(room, err) &&
                     history_take(room->history, change->author, redo, move, err) &&
                     room_apply(room, &order, work, err);
@@ -290,12 +301,12 @@ enum room_outcome room_undo(struct room *room, const struct room_change *change,
     return ROOM_APPLIED;
 }
 
-static void tell_document(struct room *room, const char *text)
+static void tell_document(struct room *room)
 {
-    struct shared_buffer *message =
-        room->sessions ? message_document(room->revision, text, strlen(text)) : NULL;
+    struct shared_buffer *message = room->sessions ? room_document_message(room) : NULL;
 
-    for (struct session *session = room->sessions; session; session = session->next) {
+    for (struct session *session = message ? room->sessions : NULL; session;
+         session = session->next) {
         session_send(session, message);
         stream_changed(session);
     }
@@ -306,20 +317,19 @@ struct scene *room_replace(struct room *room, const struct room_document *docume
                            const struct room_change *change)
 {
     struct scene *before = last_good_before_replace(room, document->has_code) ? NULL : room->scene;
-    char *text = document->text;
 
     room->scene = document->scene;
     history_destroy(room->history);
     room->history = history_create();
     room->revision++;
     room->edits_since_snapshot = 0;
-    room_keep_text(room, text);
+    room_keep_text(room, document->kept);
     scene_error_resume(room); /* it may have helped */
     room_history_clear(room);
     room_sync_replace(room);
-    tell_document(room, text);
-    room_store_push(room, STORE_REPLACE, change, text, NULL);
+    room_store_push(room, STORE_REPLACE, change, document->text, NULL);
     metric_add(&room->hub->metrics, METRIC_EDITS, 1);
+    tell_document(room);
     return before;
 }
 
@@ -328,10 +338,20 @@ struct scene *room_replace(struct room *room, const struct room_document *docume
 struct shared_buffer *room_document_message(struct room *room)
 {
     struct shared_buffer *text = room_text(room);
-    struct shared_buffer *message =
-        message_document(room->revision, (const char *)text->bytes, text->length - 1);
+    const uint64_t revision = room->revision;
+    const bool heavy = room_is_heavy(room);
 
+    if (heavy) {
+        room_hold(room);
+        hub_unlock(room->hub);
+    }
+    struct shared_buffer *message =
+        message_document(revision, (const char *)text->bytes, text->length - 1);
     shared_buffer_unref(text);
+    if (heavy) {
+        hub_lock(room->hub);
+        room_release(room);
+    }
     return message;
 }
 

@@ -29,6 +29,37 @@ bool room_edit_is_heavy(const struct room *room, const cJSON *ops)
     return edit_weight(room->scene, ops, ROOM_LIGHT_WEIGHT) > ROOM_LIGHT_WEIGHT;
 }
 
+/* --- copies --- */
+
+struct scene *room_copy(struct room *room)
+{
+    if (!room_is_heavy(room)) {
+        return scene_copy(room->scene);
+    }
+    room_hold(room);
+    hub_unlock(room->hub);
+    struct scene *copy = scene_copy(room->scene);
+    hub_lock(room->hub);
+    room_release(room);
+    return copy;
+}
+
+static void destroy_scene(void *data, bool dropped)
+{
+    (void)dropped;
+    scene_destroy(data);
+}
+
+void room_drop_scene(struct hub *hub, struct scene *scene)
+{
+    const struct task_order order = {
+        .scene = "", .account = "", .heavy = true, .run = destroy_scene, .data = scene};
+
+    if (!scene || scene->node_count <= TASK_LIGHT_NODES || !tasks_add(hub->tasks, &order, NULL)) {
+        scene_destroy(scene);
+    }
+}
+
 /* --- text --- */
 
 static struct shared_buffer *with_end(const char *text)
@@ -36,12 +67,15 @@ static struct shared_buffer *with_end(const char *text)
     return shared_buffer_create(text, strlen(text) + 1);
 }
 
-void room_keep_text(struct room *room, const char *text)
+struct shared_buffer *room_text_to_keep(const struct scene *scene, const char *text)
+{
+    return scene->node_count > TASK_LIGHT_NODES ? with_end(text) : NULL;
+}
+
+void room_keep_text(struct room *room, struct shared_buffer *kept)
 {
     room_forget_text(room);
-    if (room_is_heavy(room)) {
-        room->text = with_end(text);
-    }
+    room->text = kept;
 }
 
 void room_forget_text(struct room *room)
@@ -132,7 +166,7 @@ static bool apply_to_copy(struct room *room, const struct room_order *order, str
     }
     hub_lock(room->hub);
     while (room->holds > 1) {
-        pthread_cond_wait(&room->hub->released, &room->hub->lock);
+        hub_wait(room->hub, &room->hub->released);
     }
     room_release(room);
     if (ok) {

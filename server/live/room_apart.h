@@ -39,12 +39,19 @@ void room_release(struct room *room);
 /* The printed document with its NUL; caller unrefs. A document of many nodes is printed without the
  * lock, on threads of tasks alone, and the text is kept until the next edit. */
 struct shared_buffer *room_text(struct room *room);
+/* A copy of the document. Releases the lock for one of many nodes. */
+struct scene *room_copy(struct room *room);
+/* Destroys a scene that was the room's; one of many nodes on a thread of tasks. */
+void room_drop_scene(struct hub *hub, struct scene *scene);
 /* Applies the order. Nobody may hold the room. Releases the lock for a heavy order. */
 bool room_apply(struct room *room, const struct room_order *order, struct room_work *out,
                 struct error *err);
 /* Frees the results that nobody has taken. Releases the lock if that takes long. */
 void room_work_finish(struct room *room, struct room_work *work);
-/* Keeps the printed document, if printing it takes long. */
-void room_keep_text(struct room *room, const char *text);
+/* What the room keeps of a printed document: a copy, if printing it takes long; else NULL. Needs no
+ * lock. */
+struct shared_buffer *room_text_to_keep(const struct scene *scene, const char *text);
+/* Takes `kept`, which may be NULL. */
+void room_keep_text(struct room *room, struct shared_buffer *kept);
 void room_forget_text(struct room *room);
 #endif

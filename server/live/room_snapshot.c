@@ -42,7 +42,7 @@ static void store_snapshot(void *data, bool dropped)
     hub_lock(hub);
     /* It stays open until it has one. */
     while (!dropped && (room = hub_find_room(hub, snapshot->id)) && room->holds > 0) {
-        pthread_cond_wait(&hub->released, &hub->lock);
+        hub_wait(hub, &hub->released);
     }
     if (room) {
         room->snapshot_soon = false;

@@ -23,6 +23,7 @@ struct last_good {
     uint64_t proven;     /* newest revision drawn by a worker; 0: none */
     struct scene *scene; /* NULL: none */
     uint64_t revision;   /* of `scene` */
+    size_t readers;      /* of `scene` without the lock: it does not change meanwhile */
 };
 
 /* picker.h */
@@ -77,6 +78,7 @@ struct room {
     size_t pending; /* writes not yet committed: the room stays */
     int edits_since_snapshot;
     bool snapshot_soon; /* a task will store a snapshot */
+    bool printing;      /* a task will print the document for the worker */
     bool deleted;
     struct shared_buffer *text; /* the printed document; NULL: not known */
     int64_t idle_since;         /* clock_ms; 0: in use */

@@ -36,10 +36,11 @@ static void on_durable(void *data)
         session_tell_durable(author->session, commit->edit, commit->revision);
     }
     room->pending--;
-    if (room->deleted && room->pending == 0) {
-        room->destroy(room);
-    }
+    const bool last = room->deleted && room->pending == 0;
     hub_unlock(hub);
+    if (last) {
+        room->destroy(room); /* nobody else knows it any more */
+    }
     if (commit->then) {
         commit->then(commit->data);
     }

@@ -12,12 +12,16 @@
 struct hub;
 struct packet_scene;
 struct room;
+struct shared_buffer;
 
-/* Sends a scene whose document has this text, without code that is refused. */
-void room_sync_send_scene(struct hub *hub, const struct packet_scene *packet, const char *text);
+/* Sends a scene whose document has this text with its NUL, without code that is refused. Shares the
+ * text. */
+void room_sync_send_scene(struct hub *hub, const struct packet_scene *packet,
+                          struct shared_buffer *text);
 
-/* Sends the scene to a worker that does not hold it, before its first order. */
-void room_sync_open(struct room *room);
+/* Sends the scene to a worker that does not hold it, before its first order. False: many nodes are
+ * printed first; the supervisor is woken when the worker has the scene. */
+bool room_sync_open(struct room *room);
 /* The worker has a result for this revision: it can draw it, or never will. */
 void room_sync_done(struct room *room, uint64_t revision);
 /* Sends an edit that made a new revision; `text` is the printed `ops`. */

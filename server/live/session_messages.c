@@ -173,8 +173,8 @@ static bool is_heavy(const struct session *session, const struct message *messag
         return false;
     }
     return message->kind == MESSAGE_EDIT
-               ? room_edit_is_heavy(room, cJSON_GetObjectItemCaseSensitive(message->json, "ops"))
-               : room_undo_is_heavy(room, session->client, message->kind == MESSAGE_REDO);
+               ? room_edit_releases(room, cJSON_GetObjectItemCaseSensitive(message->json, "ops"))
+               : room_undo_releases(room, session->client, message->kind == MESSAGE_REDO);
 }
 
 /* A change waits for those who hold the document. False, where it is not a task: it would wait, or
@@ -192,7 +192,7 @@ static bool receive_checked(struct session *session, const struct message *messa
     while (changes_document(message->kind) && session->room && session->room->holds > 0 && done) {
         done = apart;
         if (apart) {
-            pthread_cond_wait(&hub->released, &hub->lock);
+            hub_wait(hub, &hub->released);
         }
     }
     if (done && !session->close_code) {

@@ -21,6 +21,7 @@
 #include "protocol/memory.h"
 #include "server/clock.h"
 #include "server/log.h"
+#include "server/net/shared_buffer.h"
 
 enum {
     SPARE_PAIRS = 2, /* its packets, its pulse */
@@ -38,7 +39,8 @@ struct chunk {
     struct chunk *next;
     size_t length, sent;
     uint8_t *bytes;
-    char *asset; /* a file that is still to be read; `bytes` is NULL so long */
+    struct shared_buffer *shared; /* holds `bytes`; NULL: they are the chunk's own */
+    char *asset;                  /* a file that is still to be read; `bytes` is NULL so long */
 };
 
 struct supervisor {
@@ -71,7 +73,11 @@ struct supervisor {
 static void chunk_destroy(struct chunk *chunk)
 {
     free(chunk->asset);
-    free(chunk->bytes);
+    if (chunk->shared) {
+        shared_buffer_unref(chunk->shared);
+    } else {
+        free(chunk->bytes);
+    }
     free(chunk);
 }
 
@@ -139,17 +145,21 @@ void supervisor_wake(struct supervisor *supervisor)
     eventfd_write(supervisor->wake_fd, 1);
 }
 
-/* Takes `chunk`. */
-static void send_chunk(struct supervisor *supervisor, struct chunk *chunk)
+/* Takes `chunk`, and `next`, which goes behind it and may be NULL. */
+static void send_chunks(struct supervisor *supervisor, struct chunk *chunk, struct chunk *next)
 {
     pthread_mutex_lock(&supervisor->lock);
     if (!supervisor->ready) {
         pthread_mutex_unlock(&supervisor->lock);
         chunk_destroy(chunk);
+        if (next) {
+            chunk_destroy(next);
+        }
         return;
     }
+    chunk->next = next;
     *supervisor->end = chunk;
-    supervisor->end = &chunk->next;
+    supervisor->end = next ? &next->next : &chunk->next;
     chunks_write(supervisor);
     bool rest = supervisor->first != NULL;
     pthread_mutex_unlock(&supervisor->lock);
@@ -163,7 +173,19 @@ void supervisor_send(struct supervisor *supervisor, const struct packet *packet)
     struct chunk *chunk = memory_alloc(1, sizeof *chunk);
 
     chunk->bytes = packet_pack(PACKET_TO_WORKER, packet, &chunk->length);
-    send_chunk(supervisor, chunk);
+    send_chunks(supervisor, chunk, NULL);
+}
+
+void supervisor_send_shared(struct supervisor *supervisor, const struct packet *packet,
+                            struct shared_buffer *payload)
+{
+    struct chunk *chunk = memory_alloc(1, sizeof *chunk), *rest = memory_alloc(1, sizeof *rest);
+
+    chunk->bytes = packet_pack(PACKET_TO_WORKER, packet, &chunk->length);
+    rest->shared = shared_buffer_ref(payload);
+    rest->bytes = payload->bytes;
+    rest->length = packet->payload_length;
+    send_chunks(supervisor, chunk, rest);
 }
 
 void supervisor_send_asset(struct supervisor *supervisor, const char *id)
@@ -171,7 +193,7 @@ void supervisor_send_asset(struct supervisor *supervisor, const char *id)
     struct chunk *chunk = memory_alloc(1, sizeof *chunk);
 
     chunk->asset = memory_text(id);
-    send_chunk(supervisor, chunk);
+    send_chunks(supervisor, chunk, NULL);
 }
 
 /* --- the process --- */

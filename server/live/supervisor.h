@@ -13,6 +13,7 @@
 #include "renderer/worker.h"
 #include "server/metrics.h"
 
+struct shared_buffer;
 struct supervisor;
 
 enum supervisor_end_kind {
@@ -56,6 +57,9 @@ struct supervisor_params {
 struct supervisor *supervisor_create(const struct supervisor_params *params);
 /* Any thread; never waits. The packet is dropped while no worker is ready. */
 void supervisor_send(struct supervisor *supervisor, const struct packet *packet);
+/* The same with a payload that is not copied: the first `payload_length` bytes of `payload`. */
+void supervisor_send_shared(struct supervisor *supervisor, const struct packet *packet,
+                            struct shared_buffer *payload);
 /* The same for a file. The supervisor's thread reads it, so the caller does not wait. */
 void supervisor_send_asset(struct supervisor *supervisor, const char *id);
 /* Any thread: multiplies `busy_ms` for the current work by `times`. */

@@ -366,6 +366,12 @@ void scenes_import(struct request *request)
     create(request, id ? id : "", scene, notes, NULL);
 }
 
+static void forget_texts(const struct room_document *document)
+{
+    free(document->text);
+    shared_buffer_unref(document->kept);
+}
+
 void scenes_replace(struct request *request)
 {
     struct error err = {0};
@@ -379,11 +385,12 @@ void scenes_replace(struct request *request)
         request_reply_error(request, &err);
         return;
     }
-    const struct room_document document = {scene, scene_print(scene, false),
+    char *text = scene_print(scene, false);
+    const struct room_document document = {scene, text, room_text_to_keep(scene, text),
                                            code_text_in_scene(scene)};
     struct room *room = hub_lock_room_to_change(hub, id, &err);
     if (!room && err.kind == ERROR_NOT_FOUND && !request_header(request, "If-Match")) {
-        free(document.text);
+        forget_texts(&document);
         create(request, id, scene, NULL, NULL);
         return;
     }
@@ -392,7 +399,7 @@ void scenes_replace(struct request *request)
             hub_unlock(hub);
         }
         scene_destroy(scene);
-        free(document.text);
+        forget_texts(&document);
         if (err.kind == ERROR_NOT_FOUND) {
             err.kind = ERROR_PRECONDITION; /* If-Match, and there is nothing that could match */
         }
