@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "clock.h"
+#include "protocol/accounts.h"
 #include "protocol/limits.h"
 #include "protocol/memory.h"
 
@@ -13,9 +15,9 @@ enum { THREADS = 2, LIGHT_THREAD = 0 };
 
 struct task {
     struct task *next;
-    char *scene, *account;
+    char *scene;
+    struct account *account;
     struct task_order order;
-    uint64_t round;
 };
 
 struct tasks {
@@ -25,15 +27,15 @@ struct tasks {
     pthread_t threads[THREADS];
     int started;
     bool stopping;
-    struct task *first; /* by rounds */
+    struct task *first, **end; /* in order of arrival */
     struct task *current[THREADS];
-    uint64_t round; /* of the task that was begun last */
+    struct accounts accounts;
 };
 
-static void task_destroy(struct task *task)
+static void task_destroy(struct tasks *tasks, struct task *task)
 {
+    accounts_leave(&tasks->accounts, task->account);
     free(task->scene);
-    free(task->account);
     free(task);
 }
 
@@ -63,35 +65,35 @@ static bool is_behind(const struct tasks *tasks, const struct task *task)
 /* The next one that this thread may do; NULL: none. */
 static struct task *take(struct tasks *tasks, int thread)
 {
+    struct task **best = NULL;
+
     for (struct task **link = &tasks->first; *link; link = &(*link)->next) {
         struct task *task = *link;
 
-        if ((task->order.heavy && thread == LIGHT_THREAD) || is_behind(tasks, task)) {
-            continue;
+        if ((!best || account_is_before(task->account, (*best)->account)) &&
+            !(task->order.heavy && thread == LIGHT_THREAD) && !is_behind(tasks, task)) {
+            best = link;
         }
-        *link = task->next;
-        tasks->round = task->round;
-        return task;
     }
-    return NULL;
+    if (!best) {
+        return NULL;
+    }
+    struct task *task = *best;
+    *best = task->next;
+    tasks->end = task->next ? tasks->end : best;
+    accounts_begin(&tasks->accounts, task->account);
+    return task;
 }
 
-/* A client's tasks are a round apart, so that each round has one of every client. */
-static void insert(struct tasks *tasks, struct task *task)
+static void add(struct tasks *tasks, const struct task_order *order)
 {
-    struct task **link = &tasks->first;
+    struct task *task = memory_alloc(1, sizeof *task);
 
-    task->round = tasks->round;
-    for (const struct task *other = tasks->first; other; other = other->next) {
-        if (other->round >= task->round && strcmp(other->account, task->account) == 0) {
-            task->round = other->round + 1;
-        }
-    }
-    while (*link && (*link)->round <= task->round) {
-        link = &(*link)->next;
-    }
-    task->next = *link;
-    *link = task;
+    task->order = *order;
+    task->scene = memory_text(order->scene);
+    task->account = accounts_join(&tasks->accounts, order->account);
+    *tasks->end = task;
+    tasks->end = &task->next;
 }
 
 static void count(const struct tasks *tasks, enum metric metric, int by)
@@ -107,7 +109,7 @@ static bool admits(const struct tasks *tasks, const struct task_order *order, st
 
     for (const struct task *task = tasks->first; task; task = task->next) {
         all += task->order.heavy;
-        own += task->order.heavy && strcmp(task->account, order->account) == 0;
+        own += task->order.heavy && strcmp(account_name(task->account), order->account) == 0;
     }
     if (tasks->stopping) {
         return error_set(err, ERROR_UNAVAILABLE, "", "the server is shutting down");
@@ -132,12 +134,7 @@ bool tasks_add(struct tasks *tasks, const struct task_order *order, struct error
     pthread_mutex_lock(&tasks->lock);
     const bool ok = admits(tasks, order, err);
     if (ok) {
-        struct task *task = memory_alloc(1, sizeof *task);
-
-        task->order = *order;
-        task->scene = memory_text(order->scene);
-        task->account = memory_text(order->account);
-        insert(tasks, task);
+        add(tasks, order);
         count(tasks, METRIC_DOCUMENTS_WAITING, 1);
         pthread_cond_broadcast(&tasks->news);
     }
@@ -169,11 +166,14 @@ static void *run(void *data)
         }
         tasks->current[thread] = task;
         pthread_mutex_unlock(&tasks->lock);
+        const int64_t begun_us = clock_thread_us();
         task->order.run(task->order.data, false);
+        const int64_t spent_us = clock_thread_us() - begun_us;
         pthread_mutex_lock(&tasks->lock);
         tasks->current[thread] = NULL;
+        accounts_charge(task->account, spent_us);
         count(tasks, METRIC_DOCUMENTS_WAITING, -1);
-        task_destroy(task);
+        task_destroy(tasks, task);
         pthread_cond_broadcast(&tasks->news); /* others of its scene may go */
     }
     pthread_mutex_unlock(&tasks->lock);
@@ -185,6 +185,7 @@ struct tasks *tasks_create(struct metrics *metrics, struct error *err)
     struct tasks *tasks = memory_alloc(1, sizeof *tasks);
 
     tasks->metrics = metrics;
+    tasks->end = &tasks->first;
     pthread_mutex_init(&tasks->lock, NULL);
     pthread_cond_init(&tasks->news, NULL);
     while (tasks->started < THREADS) {
@@ -208,6 +209,7 @@ void tasks_stop(struct tasks *tasks)
     tasks->stopping = true;
     struct task *left = tasks->first;
     tasks->first = NULL;
+    tasks->end = &tasks->first;
     pthread_cond_broadcast(&tasks->news);
     pthread_mutex_unlock(&tasks->lock);
     for (; tasks->started > 0; tasks->started--) {
@@ -219,7 +221,7 @@ void tasks_stop(struct tasks *tasks)
         left = task->next;
         task->order.run(task->order.data, true);
         count(tasks, METRIC_DOCUMENTS_WAITING, -1);
-        task_destroy(task);
+        task_destroy(tasks, task);
     }
 }
 
@@ -229,6 +231,7 @@ void tasks_destroy(struct tasks *tasks)
         return;
     }
     tasks_stop(tasks);
+    accounts_finish(&tasks->accounts);
     pthread_cond_destroy(&tasks->news);
     pthread_mutex_destroy(&tasks->lock);
     free(tasks);

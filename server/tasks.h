@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Work on documents, on threads of its own. The tasks of one scene run one after the other, in the
- * order of arrival. Between scenes, clients take turns. At most one heavy task runs at a time, so a
+ * order of arrival. Between scenes, the client whose tasks took the least time is next
+ * (protocol/accounts.h). At most one heavy task runs at a time, so a
  * light task never waits for a heavy one of another scene. */
 #ifndef SERVER_TASKS_H
 #define SERVER_TASKS_H
@@ -20,7 +21,7 @@ enum {
 
 struct task_order {
     const char *scene;   /* id of the scene; "": no order is kept; copied */
-    const char *account; /* the client whose turn it takes; copied */
+    const char *account; /* the client who pays for its time; copied */
     bool heavy;
     bool bounded; /* refused when many heavy tasks wait */
     /* Called once, on a thread of the tasks, without locks. `dropped`: the server shuts down, and

@@ -7,10 +7,12 @@
 
 #include "hub.h"
 #include "last_good.h"
+#include "protocol/accounts.h"
 #include "protocol/code_text.h"
 #include "protocol/memory.h"
 #include "renderer/pick.h"
 #include "room_apart.h"
+#include "server/clock.h"
 #include "server_message.h"
 #include "session.h"
 #include "stream.h"
@@ -18,6 +20,7 @@
 struct question {
     struct question *next;
     struct session *session; /* NULL: it asks no longer */
+    struct account *account; /* of the session */
     double pick, x, y;
     bool through;
     struct render_request view;
@@ -30,11 +33,13 @@ struct picker {
     bool stop;
     struct question *first;   /* in order of asking */
     struct question *current; /* the thread's; its session may go meanwhile */
-    uint64_t turns;
+    uint64_t turns;           /* questions so far */
+    struct accounts accounts;
 };
 
-static void question_destroy(struct question *question)
+static void question_destroy(struct picker *picker, struct question *question)
 {
+    accounts_leave(&picker->accounts, question->account);
     render_request_finish(&question->view);
     free(question);
 }
@@ -57,7 +62,7 @@ static void make_room(struct picker *picker, const struct session *session)
         struct question *gone = *oldest;
 
         *oldest = gone->next;
-        question_destroy(gone);
+        question_destroy(picker, gone);
         metric_add(&picker->hub->metrics, METRIC_PICKS_GIVEN_UP, 1);
     }
 }
@@ -76,6 +81,7 @@ bool picker_ask(struct session *session, const cJSON *message, struct error *err
     struct question **end = &picker->first;
     *question = (struct question){
         .session = session,
+        .account = accounts_join(&picker->accounts, session->id),
         .pick = json_member_number(message, "pick", 0),
         .x = json_member_number(message, "x", 0),
         .y = json_member_number(message, "y", 0),
@@ -106,7 +112,7 @@ void picker_forget(struct session *session)
             continue;
         }
         *at = question->next;
-        question_destroy(question);
+        question_destroy(picker, question);
     }
 }
 
@@ -296,19 +302,20 @@ static void answer(struct picker *picker, const struct question *question)
     }
 }
 
-/* The oldest of the session whose turn was longest ago. */
+/* The oldest of the session that took the least time. */
 static struct question *take(struct picker *picker)
 {
     struct question **best = &picker->first;
 
     for (struct question **at = &picker->first; *at; at = &(*at)->next) {
-        if ((*at)->session->pick_turn < (*best)->session->pick_turn) {
+        if (account_is_before((*at)->account, (*best)->account)) {
             best = at;
         }
     }
     struct question *question = *best;
     *best = question->next;
-    question->session->pick_turn = ++picker->turns;
+    accounts_begin(&picker->accounts, question->account);
+    picker->turns++;
     return question;
 }
 
@@ -323,8 +330,10 @@ static void *run(void *data)
             continue;
         }
         picker->current = take(picker);
+        const int64_t begun_us = clock_thread_us();
         answer(picker, picker->current);
-        question_destroy(picker->current);
+        accounts_charge(picker->current->account, clock_thread_us() - begun_us);
+        question_destroy(picker, picker->current);
         picker->current = NULL;
     }
     hub_unlock(picker->hub);
@@ -362,8 +371,9 @@ void picker_destroy(struct picker *picker)
         struct question *question = picker->first;
 
         picker->first = question->next;
-        question_destroy(question);
+        question_destroy(picker, question);
     }
+    accounts_finish(&picker->accounts);
     pthread_cond_destroy(&picker->work);
     free(picker);
 }

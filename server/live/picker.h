@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Picks: which node is under the pointer. A thread of its own answers them without the worker, so
- * that a click never waits for a picture. Among waiting sessions, the one served longest ago is
- * next. */
+ * that a click never waits for a picture. Each session has an account of the thread's time, and the
+ * one that took the least is next (protocol/accounts.h). */
 #ifndef SERVER_PICKER_H
 #define SERVER_PICKER_H
 

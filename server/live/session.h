@@ -26,12 +26,11 @@ struct session {
     struct send_queue send_queue;
     struct stream *stream;
     struct thumbnail_list *thumbnails;
-    uint64_t pick_turn; /* turn of the picker that answered it last */
-    bool working;       /* a task works on its message; the session stays meanwhile */
-    bool heavy;         /* that short message may take long */
-    bool left;          /* its connection has closed meanwhile */
-    int64_t worked_us;  /* processor time of the last task */
-    int close_code;     /* > 0: close when the queue is empty, or at once when it is full */
+    bool working;      /* a task works on its message; the session stays meanwhile */
+    bool heavy;        /* that short message may take long */
+    bool left;         /* its connection has closed meanwhile */
+    int64_t worked_us; /* processor time of the last task */
+    int close_code;    /* > 0: close when the queue is empty, or at once when it is full */
     bool close_now;
     /* Call it when something has to be written or closed; any thread. */
     void (*wake)(void *connection);

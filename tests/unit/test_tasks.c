@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "protocol/limits.h"
+#include "server/clock.h"
 #include "server/tasks.h"
 
 enum { MOST = 200 };
@@ -29,7 +30,16 @@ struct errand {
     struct diary *diary;
     char name;
     sem_t *begun, *go; /* NULL: it does not wait */
+    int ms;            /* of the processor that it takes */
 };
+
+static void spend(int ms)
+{
+    const int64_t end_us = clock_thread_us() + (int64_t)1000 * ms;
+
+    while (clock_thread_us() < end_us) {
+    }
+}
 
 static struct diary *open_diary(struct diary *diary)
 {
@@ -49,6 +59,7 @@ static void write_down(void *data, bool dropped)
     if (errand->go && !dropped) {
         sem_wait(errand->go);
     }
+    spend(errand->ms);
     pthread_mutex_lock(&diary->lock);
     diary->dropped += dropped;
     diary->done[diary->count++] = errand->name;
@@ -81,8 +92,8 @@ static void light_passes_heavy(void **state)
     struct diary diary;
     sem_t go;
     struct tasks *tasks = tasks_create(NULL, NULL);
-    struct errand heavy = {open_diary(&diary), 'H', NULL, &go}, next = {&diary, 'h', NULL, NULL},
-                  light = {&diary, 'l', NULL, NULL};
+    struct errand heavy = {open_diary(&diary), 'H', NULL, &go, 0},
+                  next = {&diary, 'h', NULL, NULL, 0}, light = {&diary, 'l', NULL, NULL, 0};
 
     (void)state;
     sem_init(&go, 0, 0);
@@ -102,8 +113,8 @@ static void one_scene_is_in_order(void **state)
     struct diary diary;
     sem_t go;
     struct tasks *tasks = tasks_create(NULL, NULL);
-    struct errand heavy = {open_diary(&diary), 'H', NULL, &go}, same = {&diary, 's', NULL, NULL},
-                  other = {&diary, 'o', NULL, NULL};
+    struct errand heavy = {open_diary(&diary), 'H', NULL, &go, 0},
+                  same = {&diary, 's', NULL, NULL, 0}, other = {&diary, 'o', NULL, NULL, 0};
 
     (void)state;
     sem_init(&go, 0, 0);
@@ -122,8 +133,8 @@ static void clients_take_turns(void **state)
     struct diary diary;
     sem_t begun, go;
     struct tasks *tasks = tasks_create(NULL, NULL);
-    struct errand first = {open_diary(&diary), 'H', &begun, &go}, many = {&diary, 'm', NULL, NULL},
-                  other = {&diary, 'o', NULL, NULL};
+    struct errand first = {open_diary(&diary), 'H', &begun, &go, 0},
+                  many = {&diary, 'm', NULL, NULL, 0}, other = {&diary, 'o', NULL, NULL, 0};
 
     (void)state;
     sem_init(&begun, 0, 0);
@@ -137,7 +148,33 @@ static void clients_take_turns(void **state)
     assert_true(add(tasks, &other, "", "other", true));
     sem_post(&go);
     wait_for(&diary, 7);
-    assert_string_equal(diary.done, "Hmomomm");
+    assert_string_equal(diary.done, "Homommm");
+    tasks_destroy(tasks);
+}
+
+/* All ten of one client take less than one of another. */
+static void the_client_that_took_the_least_time_is_next(void **state)
+{
+    struct diary diary;
+    sem_t begun, go;
+    struct tasks *tasks = tasks_create(NULL, NULL);
+    struct errand first = {open_diary(&diary), 'H', &begun, &go, 0},
+                  slow = {&diary, 's', NULL, NULL, 200}, quick = {&diary, 'q', NULL, NULL, 2};
+
+    (void)state;
+    sem_init(&begun, 0, 0);
+    sem_init(&go, 0, 0);
+    assert_true(add(tasks, &first, "", "first", true));
+    sem_wait(&begun);
+    for (int i = 0; i < 3; i++) {
+        assert_true(add(tasks, &slow, "", "slow", true));
+    }
+    for (int i = 0; i < 10; i++) {
+        assert_true(add(tasks, &quick, "", "quick", true));
+    }
+    sem_post(&go);
+    wait_for(&diary, 14);
+    assert_string_equal(diary.done, "Hsqqqqqqqqqqss");
     tasks_destroy(tasks);
 }
 
@@ -148,7 +185,8 @@ static void heavy_ones_are_bounded(void **state)
     struct error err = {0};
     struct metrics metrics = {0};
     struct tasks *tasks = tasks_create(&metrics, NULL);
-    struct errand first = {open_diary(&diary), 'H', &begun, &go}, many = {&diary, 'm', NULL, NULL};
+    struct errand first = {open_diary(&diary), 'H', &begun, &go, 0},
+                  many = {&diary, 'm', NULL, NULL, 0};
 
     (void)state;
     sem_init(&begun, 0, 0);
@@ -186,7 +224,8 @@ static void what_waits_is_dropped_at_the_end(void **state)
     struct error err = {0};
     struct metrics metrics = {0};
     struct tasks *tasks = tasks_create(&metrics, NULL);
-    struct errand first = {open_diary(&diary), 'H', &begun, &go}, next = {&diary, 'h', NULL, NULL};
+    struct errand first = {open_diary(&diary), 'H', &begun, &go, 0},
+                  next = {&diary, 'h', NULL, NULL, 0};
 
     (void)state;
     sem_init(&begun, 0, 0);
@@ -211,6 +250,7 @@ int main(void)
         cmocka_unit_test(light_passes_heavy),
         cmocka_unit_test(one_scene_is_in_order),
         cmocka_unit_test(clients_take_turns),
+        cmocka_unit_test(the_client_that_took_the_least_time_is_next),
         cmocka_unit_test(heavy_ones_are_bounded),
         cmocka_unit_test(what_waits_is_dropped_at_the_end),
     };
