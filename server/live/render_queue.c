@@ -196,6 +196,9 @@ static bool admits_image(struct hub *hub, const struct render_order *order, stru
 
 static bool admits(struct hub *hub, const struct render_order *order, struct error *err)
 {
+    if (atomic_load(&hub->draining)) {
+        return error_set(err, ERROR_UNAVAILABLE, "", "the server is shutting down");
+    }
     if (order->room && order->room->suspended.kind != ERROR_NONE) {
         if (err) {
             *err = order->room->suspended;

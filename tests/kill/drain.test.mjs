@@ -85,6 +85,44 @@ test('SIGTERM while clients never stop talking', async () => {
     }
 });
 
+/** Sends a request whose head is admitted; what is returned sends its body, and waits for the answer. */
+async function beginPost(daemon, at, body) {
+    const socket = net.connect(daemon.port, '127.0.0.1');
+    let answer = '';
+    socket.on('data', (bytes) => (answer += bytes));
+    socket.on('error', () => {});
+    const closed = new Promise((done) => socket.on('close', done));
+    const fields = ['Content-Type: application/json', `Content-Length: ${body.length}`, 'Expect: 100-continue', 'Connection: close'];
+    socket.write([`POST ${at} HTTP/1.1`, `Host: 127.0.0.1:${daemon.port}`, ...fields, '', ''].join('\r\n'));
+    await until(() => answer.includes(' 100 '), 'the head to be admitted');
+    return async () => {
+        socket.write(body);
+        await closed;
+        return answer;
+    };
+}
+
+test('pictures of examples and of documents are answered, also those asked for at the last moment', async () => {
+    const daemon = await startDaemon({ data, driver: 'null', tileMs: 5 });
+    const stuck = await Live.open(daemon, 's');
+    stuck.stopReading(); // for three seconds its answer to the close is awaited
+    const pictures = ['snowman', 'chess'].flatMap((example) =>
+        [3500, 3600, 3700].map((side) => fetch(`${daemon.url}/v1/examples/${example}/image.png?width=${side}&height=${side}`)),
+    );
+    await until(async () => (await counter(daemon, 'render_queue')) >= pictures.length, 'the orders');
+    const rest = await beginPost(daemon, '/v1/render', JSON.stringify({ scene: DOCUMENT, width: 64, height: 48 }));
+    daemon.child.kill('SIGTERM');
+    await logged(daemon, /draining/);
+    for (const picture of pictures) {
+        const answer = await picture;
+        assert.equal(answer.status, 503);
+        assert.equal((await answer.json()).detail, 'the server is shutting down');
+    }
+    assert.match(await rest(), /HTTP\/1\.1 503 [^]*the server is shutting down/);
+    stuck.socket.destroy();
+    assert.equal((await daemon.exited).status, 0, daemon.errors);
+});
+
 test('a second signal ends at once', async () => {
     const daemon = await startDaemon({ data, ready: false, driver: 'null' });
     const stuck = await Live.open(daemon, 's');
