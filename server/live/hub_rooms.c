@@ -83,6 +83,16 @@ static struct room *no_such_scene(const char *id, struct error *err)
     return NULL;
 }
 
+/* A damaged database may list a scene and not find it. Under the lock. */
+static void tell_lost(struct hub *hub, const char *id, struct error *err)
+{
+    if (err && err->kind == ERROR_NOT_FOUND) {
+        log_error("hub", "scene %s is listed, and the database does not find it", id);
+        metric_add(&hub->metrics, METRIC_SCENES_UNREADABLE, 1);
+        error_set(err, ERROR_INTERNAL, id, "the database does not find it");
+    }
+}
+
 /* Only this function loads, and none twice at a time, so a room found missing stays missing until
  * here it is added. A room that left memory was committed before. */
 struct room *hub_lock_room(struct hub *hub, const char *id, struct error *err)
@@ -107,11 +117,15 @@ struct room *hub_lock_room(struct hub *hub, const char *id, struct error *err)
         struct room *loaded = load_room(hub, id, err);
 
         hub_lock(hub);
-        if (loaded && catalog_find(hub->catalog, id)) {
+        const bool listed = catalog_find(hub->catalog, id) != NULL;
+        if (loaded && listed) {
             room = loaded;
             add_room(hub, room);
         } else {
             room_destroy(loaded);
+        }
+        if (!loaded && listed) {
+            tell_lost(hub, id, err);
         }
     }
     if (!room) {

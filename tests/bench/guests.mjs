@@ -21,6 +21,7 @@ const EVERY_MS = 40;
 const SECONDS = Number(process.env.GUEST_SECONDS ?? 4);
 const ROUNDS = Number(process.env.GUEST_ROUNDS ?? 5);
 const PICTURES = 3; // of 64×48, in each round
+const FLOOD = 20; // messages at a time
 const MOST_RATIO = 1.5;
 const MOST_PICTURE_MS = 1000;
 const MOST_RESTARTS = 1;
@@ -112,6 +113,35 @@ const GUESTS = {
         return async () => {
             await stop();
             await live.close();
+        };
+    },
+    'a flood of views': async (daemon) => {
+        const live = await Live.open(daemon, 'other');
+        const stop = repeat(async (i) => {
+            for (let k = 0; k < FLOOD; k += 1) {
+                live.look({ ...VIEW, ...place(FLOOD * i + k) });
+            }
+            live.frames.length = 0;
+            await sleep(1);
+        });
+        return async () => {
+            await stop();
+            live.socket.destroy();
+        };
+    },
+    'a flood of picks': async (daemon) => {
+        const live = await Live.open(daemon, 'other');
+        live.look(VIEW);
+        const stop = repeat(async (i) => {
+            for (let k = 0; k < FLOOD; k += 1) {
+                live.say({ type: 'pick', pick: FLOOD * i + k + 1, seq: live.seq, x: k, y: k });
+            }
+            live.messages.length = 0;
+            await sleep(1);
+        });
+        return async () => {
+            await stop();
+            live.socket.destroy();
         };
     },
     'documents of 100,000 nodes': (daemon) => {

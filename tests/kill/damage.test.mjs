@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A database of which pages are lost: it is said at the start, what can be read is served.
 import assert from 'node:assert/strict';
-import { execFile } from 'node:child_process';
+import { execFile, spawn } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
@@ -13,6 +13,7 @@ import {
     program,
     removeDirectory,
     startDaemon,
+    until,
 } from '../support/daemon.mjs';
 
 const PAGE = 4096;
@@ -40,6 +41,76 @@ function losePages(mark) {
     return lost;
 }
 
+/** A copy of the data directory, to be damaged. */
+function copyData() {
+    const copy = makeDirectory();
+    fs.cpSync(data, copy, { recursive: true });
+    return copy;
+}
+
+/** Numbers that look random, and are the same each time. */
+function random(seed) {
+    let state = seed;
+    return (below) => {
+        state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+        return Math.floor((state / 2 ** 32) * below);
+    };
+}
+
+/**
+ * What comes of a damaged directory: the daemon refuses it with a reason, or it serves what can be read,
+ * and says of each other scene why not. It ends by itself in the first case alone.
+ */
+async function outcome(directory) {
+    const child = spawn(program, ['serve', '--port', '0', '--data', directory, '--device', 'none']);
+    let output = '';
+    let errors = '';
+    child.stdout.on('data', (bytes) => (output += bytes));
+    child.stderr.on('data', (bytes) => (errors += bytes));
+    let end = null;
+    const closed = new Promise((done) => child.on('close', (status, signal) => done((end = { status, signal }))));
+    const url = await until(() => /listening on (http:\S+)\//.exec(output)?.[1] ?? (end && 'none'), 'the daemon to listen or to end');
+    if (url === 'none') {
+        assert.deepEqual(end, { status: 1, signal: null }, errors);
+        assert.match(errors, /^fieldcast: \S.*$/m);
+        return { refused: errors.trim().split('\n').at(-1) };
+    }
+    const { scenes } = await (await fetch(`${url}/v1/scenes`)).json();
+    const served = { fine: 0, unreadable: 0 };
+    for (const { id } of scenes) {
+        const answer = await fetch(`${url}/v1/scenes/${id}`);
+        const body = await answer.json();
+        assert.ok(answer.status === 200 || (answer.status === 500 && body.detail), `${id}: ${answer.status} ${JSON.stringify(body)}`);
+        served[answer.status === 200 ? 'fine' : 'unreadable'] += 1;
+    }
+    assert.equal(end, null, errors);
+    child.kill('SIGTERM');
+    await closed;
+    assert.deepEqual(end, { status: 0, signal: null }, errors);
+    return served;
+}
+
+/** Takes bytes of the database, gives other ones. */
+const DAMAGES = {
+    'garbage': () => Buffer.alloc(20000, 'no database '),
+    'the first half of it': (bytes) => bytes.subarray(0, bytes.length >> 1),
+    'nothing': () => Buffer.alloc(0),
+    'a version of the future': (bytes) => bytes.fill(0xff, 60, 64), // the header's user version
+    'another magic': (bytes) => bytes.fill(0, 0, 16),
+    ...Object.fromEntries(
+        Array.from({ length: 6 }, (_, seed) => [
+            `60 bits turned over, seed ${seed + 1}`,
+            (bytes) => {
+                const next = random(seed + 1);
+                for (let i = 0; i < 60; i += 1) {
+                    bytes[next(bytes.length)] ^= 1 << next(8);
+                }
+                return bytes;
+            },
+        ]),
+    ),
+};
+
 let daemon;
 before(async () => {
     daemon = await startDaemon({ data, driver: 'null', ready: false });
@@ -58,6 +129,36 @@ after(async () => {
 test('a whole one is said to be whole', async () => {
     const { stdout } = await doctor();
     assert.match(stdout, /^ok +scenes +no damage is found$/m);
+});
+
+for (const [what, damage] of Object.entries(DAMAGES)) {
+    test(`${what}: refused with a reason, or served as far as it can be read`, async (t) => {
+        const copy = copyData();
+        const name = path.join(copy, 'scenes.sqlite');
+        fs.writeFileSync(name, damage(fs.readFileSync(name)));
+        t.diagnostic(JSON.stringify(await outcome(copy)));
+        removeDirectory(copy);
+    });
+}
+
+test('a log of writes that is cut or grown: an older state, or a refusal', async (t) => {
+    const live = makeDirectory();
+    const writer = await startDaemon({ data: live, driver: 'null', ready: false });
+    for (let i = 0; i < 20; i += 1) {
+        await ask(writer, 'POST', `/v1/scenes?id=scene-${i}`, marked('fine'));
+    }
+    await writer.kill('SIGKILL');
+    const log = fs.readFileSync(path.join(live, 'scenes.sqlite-wal'));
+    assert.ok(log.length > 0);
+    for (const bytes of [log.subarray(0, log.length >> 1), log.subarray(0, 7), Buffer.concat([log, Buffer.alloc(5000, 7)])]) {
+        const copy = makeDirectory();
+        fs.cpSync(live, copy, { recursive: true });
+        fs.writeFileSync(path.join(copy, 'scenes.sqlite-wal'), bytes);
+        t.diagnostic(JSON.stringify(await outcome(copy)));
+        removeDirectory(copy);
+    }
+    await writer.stop();
+    removeDirectory(live);
 });
 
 test('a damaged one is told by the log, by readiness, by doctor, and counted', async () => {
