@@ -25,8 +25,8 @@ const struct declared_param_alias declared_param_aliases[] = {
     {"int3", "ivec3"},  {"int4", "ivec4"},  {NULL, NULL},
 };
 
-enum { ROW_NAME, ROW_TYPE, ROW_DEFAULT, ROW_RANGE, ROW_DOC, ROW_MEMBERS };
-static const char *const row_members[] = {"name", "type", "default", "range", "doc", NULL};
+enum { ROW_NAME, ROW_TYPE, ROW_SETS, ROW_DEFAULT, ROW_RANGE, ROW_DOC, ROW_MEMBERS };
+static const char *const row_members[] = {"name", "type", "sets", "default", "range", "doc", NULL};
 
 /* --- one row --- */
 
@@ -158,6 +158,10 @@ static cJSON *row_json(const struct param *row, const cJSON *json)
 
     cJSON_AddStringToObject(out, row_members[ROW_NAME], row->name);
     cJSON_AddStringToObject(out, row_members[ROW_TYPE], param_type_name(row->type));
+    const cJSON *sets = cJSON_GetObjectItemCaseSensitive(json, row_members[ROW_SETS]);
+    if (sets) {
+        cJSON_AddStringToObject(out, row_members[ROW_SETS], sets->valuestring);
+    }
     if (cJSON_GetObjectItemCaseSensitive(json, row_members[ROW_DEFAULT])) {
         cJSON_AddItemToObject(out, row_members[ROW_DEFAULT], param_default(row));
     }
@@ -171,10 +175,52 @@ static cJSON *row_json(const struct param *row, const cJSON *json)
     return out;
 }
 
+/* What rows of models have and others do not, and the other way. */
+static bool check_kind(const cJSON *row, enum declared_of of, const char *place, struct error *err)
+{
+    const cJSON *sets = cJSON_GetObjectItemCaseSensitive(row, row_members[ROW_SETS]);
+    char path[ERROR_PLACE_BYTES];
+
+    error_place(path, place, row_members[ROW_SETS]);
+    if (sets && !cJSON_IsString(sets)) {
+        return error_set(err, ERROR_INVALID, path, "expected a text");
+    }
+    if (sets && of == DECLARED_OF_CODE) {
+        return error_set(err, ERROR_INVALID, path, "only a parameter of a model sets something");
+    }
+    if (of != DECLARED_OF_MODEL) {
+        return true;
+    }
+    if (cJSON_GetObjectItemCaseSensitive(row, row_members[ROW_DEFAULT])) {
+        return error_set(err, ERROR_INVALID, error_place(path, place, row_members[ROW_DEFAULT]),
+                         "what a model's tree has is the default");
+    }
+    return sets || error_set(err, ERROR_INVALID, path,
+                             "is missing, expected a place such as \"/nodes/ID/params/radius\"");
+}
+
+/* Whether a row before this one sets the same. */
+static bool check_alone(const cJSON *rows, const cJSON *row, const char *place, struct error *err)
+{
+    const char *sets =
+        cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(row, row_members[ROW_SETS]));
+    char path[ERROR_PLACE_BYTES];
+
+    for (const cJSON *other = rows->child; sets && other != row; other = other->next) {
+        const char *taken =
+            cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(other, row_members[ROW_SETS]));
+        if (taken && strcmp(taken, sets) == 0) {
+            return error_set(err, ERROR_INVALID, error_place(path, place, row_members[ROW_SETS]),
+                             "another parameter sets %.160s", sets);
+        }
+    }
+    return true;
+}
+
 /* --- all rows --- */
 
-bool declared_params_check(const cJSON *rows, const struct record_type *taken, const char *place,
-                           struct error *err)
+bool declared_params_check(const cJSON *rows, enum declared_of of, const struct record_type *taken,
+                           const char *place, struct error *err)
 {
     struct param seen[LIMIT_DECLARED + 1] = {{.name = NULL}};
     const struct record_type before = {.params = seen};
@@ -191,7 +237,8 @@ bool declared_params_check(const cJSON *rows, const struct record_type *taken, c
         char path[ERROR_PLACE_BYTES], number[24];
         struct param param;
         snprintf(number, sizeof number, "%d", count);
-        if (!read_row(&param, row, error_place(path, place, number), err)) {
+        if (!read_row(&param, row, error_place(path, place, number), err) ||
+            !check_kind(row, of, path, err) || !check_alone(rows, row, path, err)) {
             return false;
         }
         error_place(path, path, row_members[ROW_NAME]);
@@ -235,11 +282,15 @@ struct declared_params *declared_params_create(const char *name, const struct re
         memcpy(params, first->params, count * sizeof *params);
     }
     declared->first_declared = count;
+    declared->sets = memory_alloc((size_t)cJSON_GetArraySize(rows) + 1, sizeof *declared->sets);
     declared->type = (struct record_type){.name = memory_text(name), .doc = "", .params = params};
     for (const cJSON *row = rows->child; row; row = row->next, count++) {
         read_row(&params[count], row, "", NULL);
         params[count].name = memory_text(params[count].name);
         params[count].doc = memory_text(params[count].doc);
+        const cJSON *sets = cJSON_GetObjectItemCaseSensitive(row, row_members[ROW_SETS]);
+        declared->sets[count - declared->first_declared] =
+            sets ? memory_text(sets->valuestring) : NULL;
     }
     cJSON_Delete(rows);
     return declared;
@@ -252,9 +303,11 @@ void declared_params_destroy(struct declared_params *declared)
     }
     for (const struct param *row = declared->type.params + declared->first_declared; row->name;
          row++) {
+        free(declared->sets[row - declared->type.params - declared->first_declared]);
         free((char *)row->name);
         free((char *)row->doc);
     }
+    free(declared->sets);
     free((struct param *)declared->type.params);
     free((char *)declared->type.name);
     free(declared);

@@ -357,8 +357,9 @@ const struct record_type shader_type = {"shader", "A class of materials.", PARAM
      .doc = "Whether the colour is lit, or is final."},
     {"doc", PARAM_TEXT, .doc = "Description for users."})};
 
-const struct record_type model_type = {"model", "A tree of nodes to be instanced.",
-                                       PARAMS({.name = NULL})};
+const struct record_type model_type = {"model", "A tree of nodes to be instanced.", PARAMS(
+    {"params", PARAM_ROWS,
+     .doc = "Numbers of the tree that each instance may have of its own."})};
 /* clang-format on */
 
 const struct record_type *record_type_in(const struct record_type *table, const char *name)

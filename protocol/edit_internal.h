@@ -44,7 +44,8 @@ struct resource *edit_find_resource(const struct editor *editor, const struct re
  * the inverse restores the others (edit_type.c). */
 bool edit_set_node_type(struct editor *editor, struct node *node, const char *at,
                         const cJSON *value);
-bool edit_set_primitive(struct editor *editor, struct node *node, int index, const char *at,
+/* The name of a primitive or model. */
+bool edit_set_declaring(struct editor *editor, struct node *node, int index, const char *at,
                         const cJSON *value);
 bool edit_set_resource_type(struct editor *editor, const struct resource_kind *kind,
                             struct resource *resource, const char *at, const cJSON *value);

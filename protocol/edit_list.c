@@ -103,6 +103,9 @@ static bool remove_node(struct editor *editor, const struct path *path, const ch
     if (!node->parent) {
         return fail_root(editor, node, at, "removed");
     }
+    if (!scene_check_untargeted(editor->scene, node, at, editor->err)) {
+        return false;
+    }
     const char *before = id_at(node->parent, node_position(node) + 1);
     snprintf(into, sizeof into, "/nodes/%s", node->parent->id);
     edit_undo_by(editor, insert_operation(into, before, NULL, node_to_json(node)));
@@ -203,7 +206,12 @@ static struct resource *read_resource(const struct editor *editor, const struct 
         return NULL;
     }
     error_place(place, into, name ? name : "value");
-    return resource_read(editor->scene, kind, name, value, place, editor->err);
+    struct resource *resource = resource_read(editor->scene, kind, name, value, place, editor->err);
+    if (resource && !resource_read_tree(editor->scene, resource, kind, value, place, editor->err)) {
+        resource_destroy(resource);
+        return NULL;
+    }
+    return resource;
 }
 
 static bool insert_resource(struct editor *editor, const struct resource_kind *kind,

@@ -43,9 +43,9 @@ static bool set_record(struct editor *editor, struct record *record, const char 
     return true;
 }
 
-/* A name of something else, which counts its users. */
-static bool set_name(struct editor *editor, struct node *node, struct record *record, int index,
-                     const char *at, const cJSON *value)
+/* A name of a material, which counts its users. */
+static bool set_material(struct editor *editor, struct node *node, struct record *record, int index,
+                         const char *at, const cJSON *value)
 {
     struct scene *scene = editor->scene;
     const struct param *param = &record->type->params[index];
@@ -60,18 +60,11 @@ static bool set_name(struct editor *editor, struct node *node, struct record *re
     }
     scene_count_user(scene, node, -1);
     record->values[index] = fresh;
-    bool ok = param->type != PARAM_MODEL || scene_check_models(scene, node, at, editor->err);
-    if (!ok) {
-        record->values[index] = old;
-        old = fresh;
-    } else {
-        edit_undo_by(editor,
-                     edit_set_operation(at, old.set ? param_value_json(param, &old) : NULL));
-        edit_did(editor, edit_set_operation(at, record_get(record, index)));
-    }
+    edit_undo_by(editor, edit_set_operation(at, old.set ? param_value_json(param, &old) : NULL));
+    edit_did(editor, edit_set_operation(at, record_get(record, index)));
     scene_count_user(scene, node, 1);
     param_value_finish(&old);
-    return ok;
+    return true;
 }
 
 static bool fail_place(const struct editor *editor, const char *at)
@@ -90,10 +83,10 @@ static bool set_in_record(struct editor *editor, struct node *node, struct recor
     }
     switch (record->type->params[index].type) {
     case PARAM_FUNCTION:
-        return edit_set_primitive(editor, node, index, at, value);
     case PARAM_MODEL:
+        return edit_set_declaring(editor, node, index, at, value);
     case PARAM_MATERIAL:
-        return set_name(editor, node, record, index, at, value);
+        return set_material(editor, node, record, index, at, value);
     default:
         return set_value(editor, record, name, at, value);
     }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Setting what decides of which type a record is: a node's type or primitive, a light's type, a
- * material's shader, the rows that a primitive or shader declares. Values go over by name; what the
- * new type does not know or accept falls to its default, and the inverse sets it again. */
+/* Setting what decides of which type a record is: a node's type, primitive or model, a light's
+ * type, a material's shader, the rows that a primitive, shader or model declares. Values go over by
+ * name; what the new type does not know or accept falls to its default, and the inverse sets it
+ * again. */
 #include <string.h>
 
 #include "edit_internal.h"
@@ -29,7 +30,7 @@ static struct record converted(const struct record *from, const struct record_ty
 }
 
 /* The same for a node's parameters, which are of more than their type's rows where they name a
- * primitive. */
+ * primitive or model. */
 static struct record converted_params(const struct scene *scene, const struct record *from,
                                       const struct node_type *type)
 {
@@ -44,7 +45,7 @@ static struct record converted_params(const struct scene *scene, const struct re
 }
 
 /* Takes `changed`, which the record becomes, and `back`, what undoing so far would make of that.
- * The inverse sets the rest, in the order of the rows: a primitive before what it declares. */
+ * The inverse sets the rest, in the order of the rows: a name before what it declares. */
 static void change(struct editor *editor, struct record *record, struct record changed,
                    struct record back, const char *values)
 {
@@ -85,8 +86,12 @@ bool edit_set_node_type(struct editor *editor, struct node *node, const char *at
         return node_type_unknown(value->valuestring, at, editor->err);
     }
     struct record changed = converted_params(editor->scene, &node->params, type);
+    if (!scene_check_retyped(editor->scene, node, changed.type, at, editor->err)) {
+        record_finish(&changed);
+        return false;
+    }
     struct record back = converted_params(editor->scene, &changed, node->type);
-    if (back.type != node->params.type) { /* its primitive is lost, and the first to be set */
+    if (back.type != node->params.type) { /* its name is lost, and the first to be set */
         struct record base = back;
         back = converted(&base, node->params.type);
         record_finish(&base);
@@ -101,21 +106,55 @@ bool edit_set_node_type(struct editor *editor, struct node *node, const char *at
     return true;
 }
 
-bool edit_set_primitive(struct editor *editor, struct node *node, int index, const char *at,
-                        const cJSON *value)
+/* The node's parameters with another name among them; false and `err` where that cannot be. */
+static bool rename_declaring(struct editor *editor, const struct node *node, int index,
+                             const char *at, const cJSON *value, struct record *out)
 {
-    struct record named, changed, back;
-    char values[PATH_TEXT_BYTES + 1];
+    const struct scene *scene = editor->scene;
+    const struct resource_kind *kind =
+        resource_kind_named_by(node->params.type->params[index].type);
+    struct record named;
 
     record_copy(&named, &node->params);
-    if (!record_set(&named, index, value, at, editor->err) ||
-        !scene_check_name(editor->scene, resource_kind_named_by(PARAM_FUNCTION),
-                          named.values[index].text, at, editor->err)) {
-        record_finish(&named);
+    bool ok = record_set(&named, index, value, at, editor->err) &&
+              scene_check_name(scene, kind, named.values[index].text, at, editor->err);
+    if (ok) {
+        *out = converted(&named, node_params_type(scene, node->type, &named));
+        ok = scene_check_retyped(scene, node, out->type, at, editor->err);
+        if (!ok) {
+            record_finish(out);
+        }
+    }
+    record_finish(&named);
+    return ok;
+}
+
+/* Whether models name each other in a circle with these parameters of the node. */
+static bool closes_circle(struct editor *editor, struct node *node, const struct record *params,
+                          const char *at)
+{
+    const struct record old = node->params;
+
+    node->params = *params;
+    const bool ok =
+        node->type->kind != KIND_MODEL || scene_check_models(editor->scene, node, at, editor->err);
+    node->params = old;
+    return !ok;
+}
+
+bool edit_set_declaring(struct editor *editor, struct node *node, int index, const char *at,
+                        const cJSON *value)
+{
+    struct record changed, back;
+    char values[PATH_TEXT_BYTES + 1];
+
+    if (!rename_declaring(editor, node, index, at, value, &changed)) {
         return false;
     }
-    changed = converted(&named, node_params_type(editor->scene, node->type, &named));
-    record_finish(&named);
+    if (closes_circle(editor, node, &changed, at)) {
+        record_finish(&changed);
+        return false;
+    }
     cJSON *old = record_get(&node->params, index);
     back = converted(&changed, node->params.type);
     param_value_finish(&back.values[index]);
@@ -200,6 +239,16 @@ static void convert_users(struct editor *editor, const struct users *users)
     convert_nodes(editor, users, scene->root);
 }
 
+/* Whether what parameters of models set is there with the new rows, and what these set. */
+static bool check_rows(const struct editor *editor, const struct resource *resource,
+                       const struct declared_params *fresh, const char *at)
+{
+    return (!resource->root ||
+            scene_check_targets(editor->scene, resource, fresh, at, editor->err)) &&
+           scene_check_all_retyped(editor->scene, &resource->declared->type, &fresh->type, at,
+                                   editor->err);
+}
+
 bool edit_set_rows(struct editor *editor, const struct resource_kind *kind,
                    struct resource *resource, int index, const char *at, const cJSON *value)
 {
@@ -210,8 +259,15 @@ bool edit_set_rows(struct editor *editor, const struct resource_kind *kind,
     }
     cJSON *old = record_get(record, index);
     record_set(record, index, value, at, NULL);
-    struct declared_params *before = resource->declared;
-    resource->declared = resource_define(kind, resource);
+    struct declared_params *before = resource->declared, *fresh = resource_define(kind, resource);
+    if (!check_rows(editor, resource, fresh, at)) {
+        const cJSON none = {.type = cJSON_NULL};
+        record_set(record, index, old ? old : &none, at, NULL);
+        cJSON_Delete(old);
+        declared_params_destroy(fresh);
+        return false;
+    }
+    resource->declared = fresh;
     convert_users(editor, &(struct users){&before->type, &resource->declared->type});
     declared_params_destroy(before);
     edit_undo_by(editor, edit_set_operation(at, old));

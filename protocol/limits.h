@@ -39,7 +39,8 @@
     X(PRIMITIVES, "primitives", 256, "primitives", "distance functions of a scene")                \
     X(SHADERS, "shaders", 256, "shaders", "shaders of a scene")                                    \
     X(MODELS, "models", 1024, "models", "models of a scene")                                       \
-    X(DECLARED, "declared", 16, "parameters", "parameters that a primitive or shader declares")    \
+    X(DECLARED, "declared", 16, "parameters",                                                      \
+      "parameters that a primitive, shader or model declares")                                     \
     X(POINTS, "points", 64, "points", "points of a polygon")                                       \
     X(CODE_BYTES, "code_bytes", 16384, "bytes", "code of a primitive, shader or node")             \
     X(CODE_DEPTH, "code_depth", 64, "levels", "nesting of code, and of its calls")                 \

@@ -68,7 +68,7 @@ extern const struct record_type volume_types[];
 extern const struct record_type shader_types[];
 extern const struct record_type primitive_type; /* of a document's `primitives` */
 extern const struct record_type shader_type;    /* of its `shaders` */
-extern const struct record_type model_type;     /* of its `models`: nothing beside the tree */
+extern const struct record_type model_type;     /* of its `models`, beside the tree */
 const struct record_type *record_type_in(const struct record_type *table, const char *name);
 
 #endif

@@ -298,7 +298,7 @@ bool param_read(const struct param *param, const cJSON *json, double out[4], con
     case PARAM_POINTS:
         return read_points(param, json, &out[0], place, err);
     case PARAM_ROWS:
-        return declared_params_check(json, NULL, place, err);
+        return declared_params_check(json, DECLARED_OF_ANY, NULL, place, err);
     case PARAM_ENUM:
         return read_choice(param, json, &out[0], place, err);
     default:

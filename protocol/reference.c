@@ -189,7 +189,7 @@ char *reference_markdown(void)
          shader_types}};
     static const struct record_type *const records[] = {
         &node_common_type, &transform_type, &camera_type, &environment_type,
-        &render_type,      &primitive_type, &shader_type};
+        &render_type,      &primitive_type, &shader_type, &model_type};
     struct page page = {0};
     add(&page, "# Reference\nEverything that a scene may hold. Written by `make docs` out of the "
                "tables of this folder.\n\n");

@@ -26,7 +26,8 @@ const struct resource_kind resource_kinds[] = {
      .offset = offsetof(struct scene, materials), .limit = LIMIT_MATERIALS, .type = "shader",
      .values = "properties", .table = shader_types},
     {.list = "models", .item = "model", .user = "node", .named_by = PARAM_MODEL,
-     .offset = offsetof(struct scene, models), .limit = LIMIT_MODELS, .table = &model_type},
+     .offset = offsetof(struct scene, models), .limit = LIMIT_MODELS, .extends = "model",
+     .table = &model_type},
     {.list = NULL},
 };
 /* clang-format on */
@@ -128,7 +129,9 @@ static const struct record_type *extended(const struct resource_kind *kind)
 bool resource_check_rows(const struct resource_kind *kind, const cJSON *rows, const char *place,
                          struct error *err)
 {
-    return declared_params_check(rows, extended(kind), place, err);
+    return declared_params_check(rows,
+                                 kind->table == &model_type ? DECLARED_OF_MODEL : DECLARED_OF_CODE,
+                                 extended(kind), place, err);
 }
 
 struct declared_params *resource_define(const struct resource_kind *kind,

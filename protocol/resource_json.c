@@ -11,7 +11,14 @@
 static bool is_own_member(const struct resource_kind *kind, const char *name)
 {
     return (kind->array && strcmp(name, "id") == 0) ||
-           (kind->type && strcmp(name, kind->type) == 0);
+           (kind->type && strcmp(name, kind->type) == 0) ||
+           (kind->table == &model_type && strcmp(name, "root") == 0);
+}
+
+/* A model is a node, or has the node as its root beside what it declares. */
+static const cJSON *root_in(const struct resource_kind *kind, const cJSON *json)
+{
+    return kind->table == &model_type ? cJSON_GetObjectItemCaseSensitive(json, "root") : NULL;
 }
 
 static bool read_values(struct resource *resource, const struct resource_kind *kind,
@@ -51,19 +58,33 @@ static bool read_definition(struct resource *resource, const struct resource_kin
     return true;
 }
 
-static bool read_body(const struct scene *scene, struct resource *resource,
-                      const struct resource_kind *kind, const cJSON *json, const char *place,
-                      struct error *err)
+static bool read_body(struct resource *resource, const struct resource_kind *kind,
+                      const cJSON *json, const char *place, struct error *err)
 {
-    if (kind->table == &model_type) {
-        resource->root = node_read(scene, json, place, err);
-        if (resource->root) {
-            resource->root->model = resource;
-        }
-        return resource->root;
+    if (kind->table == &model_type && !root_in(kind, json)) {
+        resource->declared = resource_define(kind, resource);
+        return true;
     }
     return read_values(resource, kind, json, place, err) &&
            read_definition(resource, kind, json, place, err);
+}
+
+bool resource_read_tree(const struct scene *scene, struct resource *resource,
+                        const struct resource_kind *kind, const cJSON *json, const char *place,
+                        struct error *err)
+{
+    char path[ERROR_PLACE_BYTES];
+    const cJSON *root = root_in(kind, json);
+
+    if (kind->table != &model_type) {
+        return true;
+    }
+    resource->root =
+        node_read(scene, root ? root : json, root ? error_place(path, place, "root") : place, err);
+    if (resource->root) {
+        resource->root->model = resource;
+    }
+    return resource->root;
 }
 
 static bool check_new_name(const struct scene *scene, const struct resource_kind *kind,
@@ -144,7 +165,7 @@ struct resource *resource_read(const struct scene *scene, const struct resource_
     }
     struct resource *resource = resource_create(name, type);
     resource->shader = shader;
-    if (!read_body(scene, resource, kind, json, place, err)) {
+    if (!read_body(resource, kind, json, place, err)) {
         resource_destroy(resource);
         return NULL;
     }
@@ -155,10 +176,17 @@ struct resource *resource_read(const struct scene *scene, const struct resource_
 
 cJSON *resource_json(const struct resource_kind *kind, const struct resource *resource)
 {
+    cJSON *json = cJSON_CreateObject();
+
     if (resource->root) {
+        record_print(&resource->record, json);
+        if (json->child) {
+            cJSON_AddItemToObject(json, "root", node_to_json(resource->root));
+            return json;
+        }
+        cJSON_Delete(json);
         return node_to_json(resource->root);
     }
-    cJSON *json = cJSON_CreateObject();
     if (kind->array) {
         cJSON_AddStringToObject(json, "id", resource->name);
     }

@@ -39,7 +39,7 @@ struct scene *scene_create_empty(void)
 
 /* --- copying --- */
 
-/* `scene` is the copy: primitives have to be in it already. */
+/* `scene` is the copy: primitives and models have to be in it already. */
 static struct node *copy_node(struct scene *scene, const struct node *from)
 {
     struct node *to = memory_alloc(1, sizeof *to);
@@ -74,11 +74,17 @@ static struct resource *copy_resource(struct scene *scene, const struct resource
         to->shader = resource_find(&scene->shaders, from->shader->name);
         to->record.type = &to->shader->declared->type;
     }
-    if (from->root) {
-        to->root = copy_node(scene, from->root);
-        to->root->model = to;
-    }
     return to;
+}
+
+/* Once all models are there. */
+static void copy_trees(struct scene *copy, const struct scene *from)
+{
+    for (size_t i = 0; i < from->models.count; i++) {
+        struct resource *model = copy->models.items[i];
+        model->root = copy_node(copy, from->models.items[i]->root);
+        model->root->model = model;
+    }
 }
 
 struct scene *scene_copy(const struct scene *scene)
@@ -98,6 +104,7 @@ struct scene *scene_copy(const struct scene *scene)
                                  copy_resource(copy, kind, from->items[i]), i);
         }
     }
+    copy_trees(copy, scene);
     copy->root = copy_node(copy, scene->root);
     copy->node_count = scene->node_count;
     return copy;
@@ -105,9 +112,14 @@ struct scene *scene_copy(const struct scene *scene)
 
 /* --- the end --- */
 
+/* Trees go before the rows that instances in them have. */
 static void finish_list(struct resource_list *list)
 {
     tdestroy(list->names, keep);
+    for (size_t i = 0; i < list->count; i++) {
+        node_destroy(list->items[i]->root);
+        list->items[i]->root = NULL;
+    }
     for (size_t i = 0; i < list->count; i++) {
         resource_destroy(list->items[i]);
     }

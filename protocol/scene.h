@@ -15,7 +15,7 @@ struct node {
     const struct node_type *type;
     struct record common;    /* node_common_type */
     struct record transform; /* transform_type */
-    struct record params;    /* type->record, or with what its primitive declares behind that */
+    struct record params;    /* type->record, or with what its primitive or model declares behind */
     struct node *parent;     /* NULL for the root of the scene or of a model */
     struct node **children;
     size_t child_count;
@@ -32,7 +32,7 @@ struct resource {
     struct record record;
     size_t users;            /* nodes or materials that name it */
     struct resource *shader; /* a material's, where it is one of the document's; else NULL */
-    struct declared_params *declared; /* of a primitive or shader; else NULL */
+    struct declared_params *declared; /* of a primitive, shader or model; else NULL */
     struct node *root;                /* of a model; else NULL */
     size_t level;                     /* of a model; private to scene_models.c */
     int search;                       /* the same */
@@ -83,6 +83,20 @@ const struct resource *node_model(const struct scene *scene, const struct node *
 const struct resource *node_primitive(const struct scene *scene, const struct node *node);
 /* The model in whose tree the node is; NULL: in the scene's own. */
 const struct resource *node_owner(const struct node *node);
+/* What a parameter of a model sets: a value of a node of its tree, or one component of that. */
+struct model_target {
+    const struct node *node;
+    bool of_transform; /* else of its parameters */
+    int index;         /* in the record */
+    int component;     /* -1: all */
+};
+/* Of the declared row with this index. A scene's models have one for each. */
+struct model_target model_target_of(const struct scene *scene, const struct resource *model,
+                                    size_t row);
+/* The value as the target takes it: `value` of the row is put into `out`, which holds a value of
+ * the target's row. One number goes into all parts of what is uniform. */
+void model_target_put(const struct model_target *target, const struct param *row,
+                      const struct value *value, struct value *out);
 /* Index among the parent's children; 0 for a root. */
 size_t node_position(const struct node *node);
 /* The next in pre-order below `top`, after `node`, which is `top` at first; NULL at the end. */

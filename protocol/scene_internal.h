@@ -61,11 +61,16 @@ struct declared_params *resource_define(const struct resource_kind *kind,
  * unknown. `place` is what messages call a node without an id. NULL and `err` on failure. */
 struct node *node_read(const struct scene *scene, const cJSON *json, const char *place,
                        struct error *err);
-/* `name` NULL: a light gets its id or the first that is free. Not part of the scene yet, nor is a
- * model's tree. `place` is the resource's. */
+/* `name` NULL: a light gets its id or the first that is free. Not part of the scene yet; a model
+ * has no tree yet. `place` is the resource's. */
 struct resource *resource_read(const struct scene *scene, const struct resource_kind *kind,
                                const char *name, const cJSON *json, const char *place,
                                struct error *err);
+/* Reads a model's tree, once what its instances name is known; others have none. The tree is not
+ * part of the scene yet. */
+bool resource_read_tree(const struct scene *scene, struct resource *resource,
+                        const struct resource_kind *kind, const cJSON *json, const char *place,
+                        struct error *err);
 cJSON *resource_json(const struct resource_kind *kind, const struct resource *resource);
 /* Reads the member of an object into the record, if it is there. */
 bool scene_read_record(struct record *record, const cJSON *json, const char *place,
@@ -83,7 +88,7 @@ struct node *node_create(const struct node_type *type, const struct record_type 
 /* With everything below; NULL is fine. The subtree is not part of a scene (any more). */
 void node_destroy(struct node *node);
 /* The rows of a node of this type whose parameters are `params`: the type's own, or those of the
- * primitive that is named. */
+ * primitive or model that is named. */
 const struct record_type *node_params_type(const struct scene *scene, const struct node_type *type,
                                            const struct record *params);
 /* Nodes of the subtree. */
@@ -137,5 +142,23 @@ void scene_count_user(struct scene *scene, const struct node *node, int by);
 bool scene_check_models(struct scene *scene, const struct node *node, const char *place,
                         struct error *err);
 bool scene_check_all_models(struct scene *scene, const char *place, struct error *err);
+
+/* --- what parameters of models set (scene_targets.c) --- */
+
+/* Whether all that `declared` sets is in the model's tree, and takes what the rows accept. `place`
+ * is that of the rows. */
+bool scene_check_targets(const struct scene *scene, const struct resource *model,
+                         const struct declared_params *declared, const char *place,
+                         struct error *err);
+/* Refuses to take a subtree out of its tree where a parameter sets something in it. */
+bool scene_check_untargeted(const struct scene *scene, const struct node *top, const char *place,
+                            struct error *err);
+/* Refuses other rows for a node's parameters where a parameter sets what these do not have. */
+bool scene_check_retyped(const struct scene *scene, const struct node *node,
+                         const struct record_type *params, const char *place, struct error *err);
+/* The same for all nodes whose rows are `old`. */
+bool scene_check_all_retyped(const struct scene *scene, const struct record_type *old,
+                             const struct record_type *params, const char *place,
+                             struct error *err);
 
 #endif

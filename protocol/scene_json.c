@@ -143,23 +143,30 @@ static const struct node_type *read_node_type(const cJSON *json, const char *pla
     return type;
 }
 
-/* A field's parameters depend on the primitive that is among them. */
+/* The parameters of a field and of an instance depend on the name that is among them. A model that
+ * is not there is told once the node is part of the scene. */
 static const struct record_type *read_params_type(struct reader *reader,
                                                   const struct node_type *type, const cJSON *params,
                                                   const char *place)
 {
     char path[ERROR_PLACE_BYTES];
-    const cJSON *name = cJSON_GetObjectItemCaseSensitive(params, "primitive");
+    const struct scene *scene = reader->scene;
+    const cJSON *name =
+        cJSON_GetObjectItemCaseSensitive(params, type->kind == KIND_MODEL ? "model" : "primitive");
 
+    if (type->kind == KIND_MODEL && cJSON_IsString(name)) {
+        const struct resource *model = resource_find(&scene->models, name->valuestring);
+        return model ? &model->declared->type : &type->record;
+    }
     if (type->kind != KIND_CODE || !cJSON_IsString(name) || !*name->valuestring) {
         return &type->record;
     }
     error_place(path, error_place(path, place, "params"), "primitive");
-    if (!scene_check_name(reader->scene, resource_kind_named_by(PARAM_FUNCTION), name->valuestring,
-                          path, reader->err)) {
+    if (!scene_check_name(scene, resource_kind_named_by(PARAM_FUNCTION), name->valuestring, path,
+                          reader->err)) {
         return NULL;
     }
-    return &resource_find(&reader->scene->primitives, name->valuestring)->declared->type;
+    return &resource_find(&scene->primitives, name->valuestring)->declared->type;
 }
 
 static struct node *read_tree(struct reader *reader, const cJSON *json, const char *place,
@@ -219,6 +226,24 @@ static bool check_format(const cJSON *format, struct error *err)
                      format ? "expected" : "is missing, expected");
 }
 
+/* Of all models in the list: each may have instances of those behind it. */
+static bool read_trees(struct scene *scene, const struct resource_kind *kind, const cJSON *json,
+                       struct error *err)
+{
+    const struct resource_list *list = resource_list_of(kind, scene);
+    const cJSON *item = json ? json->child : NULL;
+    char place[ERROR_PLACE_BYTES];
+
+    for (size_t i = 0; i < list->count; i++, item = item->next) {
+        struct resource *resource = list->items[i];
+        error_place(place, error_place(place, "", kind->list), resource->name);
+        if (!resource_read_tree(scene, resource, kind, item, place, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool read_resources(struct scene *scene, const struct resource_kind *kind, const cJSON *json,
                            struct error *err)
 {
@@ -244,7 +269,7 @@ static bool read_resources(struct scene *scene, const struct resource_kind *kind
         resource_list_insert(list, resource, list->count);
         resource_count_user(resource, 1);
     }
-    return true;
+    return read_trees(scene, kind, json, err);
 }
 
 static bool read_all_resources(struct scene *scene, const cJSON *const *found, struct error *err)

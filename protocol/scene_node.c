@@ -174,10 +174,11 @@ const struct resource *node_primitive(const struct scene *scene, const struct no
 const struct record_type *node_params_type(const struct scene *scene, const struct node_type *type,
                                            const struct record *params)
 {
-    const struct resource *primitive =
-        named(&scene->primitives, type, KIND_CODE, params, "primitive");
+    const struct resource *declaring =
+        type->kind == KIND_MODEL ? named(&scene->models, type, KIND_MODEL, params, "model")
+                                 : named(&scene->primitives, type, KIND_CODE, params, "primitive");
 
-    return primitive ? &primitive->declared->type : &type->record;
+    return declaring ? &declaring->declared->type : &type->record;
 }
 
 const struct resource *node_material(const struct scene *scene, const struct node *node)

@@ -67,16 +67,26 @@ static bool add_tree(struct part *part, const struct node *top)
 }
 
 /* What two equal subtrees differ in. */
-static void remove_names(cJSON *node)
+static void remove_names(cJSON *node, bool ids)
 {
     cJSON *child;
 
-    cJSON_DeleteItemFromObjectCaseSensitive(node, "id");
+    if (ids) {
+        cJSON_DeleteItemFromObjectCaseSensitive(node, "id");
+    }
     cJSON_DeleteItemFromObjectCaseSensitive(node, "name");
     cJSON_ArrayForEach(child, cJSON_GetObjectItemCaseSensitive(node, "children"))
     {
-        remove_names(child);
+        remove_names(child, ids);
     }
+}
+
+/* Ids stay where parameters of a model set something of the nodes. */
+static void remove_names_of_model(cJSON *model)
+{
+    cJSON *root = cJSON_GetObjectItemCaseSensitive(model, "root");
+
+    remove_names(root ? root : model, !root);
 }
 
 static void print_used(const struct part *part, const struct resource_kind *kind, cJSON *json)
@@ -89,7 +99,7 @@ static void print_used(const struct part *part, const struct resource_kind *kind
             cJSON *item = resource_json(kind, list->items[i]);
 
             if (list->items[i]->root) {
-                remove_names(item);
+                remove_names_of_model(item);
             }
             all = all ? all : cJSON_AddObjectToObject(json, kind->list);
             cJSON_AddItemToObject(all, list->items[i]->name, item);
@@ -102,7 +112,7 @@ static cJSON *print_root(const struct node *node, const struct resource *materia
     cJSON *json = node_to_json(node);
     cJSON *transform = cJSON_GetObjectItemCaseSensitive(json, "transform");
 
-    remove_names(json);
+    remove_names(json, true);
     cJSON_DeleteItemFromObjectCaseSensitive(json, "visible");
     cJSON_DeleteItemFromObjectCaseSensitive(transform, "translation");
     if (transform && !transform->child) {

@@ -230,6 +230,25 @@ static struct node *tree_at(const struct scene *scene, size_t i)
     return i < scene->models.count ? scene->models.items[i]->root : scene->root;
 }
 
+static bool check_targets(const struct scene *scene, const struct resource *model,
+                          struct error *err)
+{
+    char place[ERROR_PLACE_BYTES];
+
+    error_place(place, error_place(place, "/models", model->name), "params");
+    return scene_check_targets(scene, model, model->declared, place, err);
+}
+
+static bool check_all_targets(const struct scene *scene, struct error *err)
+{
+    for (size_t i = 0; i < scene->models.count; i++) {
+        if (!check_targets(scene, scene->models.items[i], err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool scene_attach_all(struct scene *scene, struct error *err)
 {
     size_t trees = scene->models.count + 1;
@@ -250,7 +269,7 @@ bool scene_attach_all(struct scene *scene, struct error *err)
     for (size_t i = 0; i < trees && ok; i++) {
         count_users(scene, tree_at(scene, i), 1);
     }
-    return ok && scene_check_all_models(scene, "/models", err);
+    return ok && scene_check_all_models(scene, "/models", err) && check_all_targets(scene, err);
 }
 
 void scene_detach(struct scene *scene, struct node *node)
@@ -273,6 +292,9 @@ bool scene_move(struct scene *scene, struct node *node, struct node *parent, siz
         return false;
     }
     bool other_tree = node_owner(home) != node_owner(parent);
+    if (other_tree && !scene_check_untargeted(scene, node, place, err)) {
+        return false;
+    }
     node_move(node, parent, position);
     if (other_tree && !scene_check_models(scene, node, place, err)) {
         node_move(node, home, old);
@@ -291,6 +313,11 @@ bool scene_attach_resource(struct scene *scene, const struct resource_kind *kind
 
     resource_list_insert(list, resource, position);
     if (resource->root && !scene_attach(scene, resource->root, NULL, 0, place, err)) {
+        resource_list_remove(list, resource);
+        return false;
+    }
+    if (resource->root && !check_targets(scene, resource, err)) {
+        scene_detach(scene, resource->root);
         resource_list_remove(list, resource);
         return false;
     }

@@ -297,8 +297,8 @@ static cJSON *node_schema(void)
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
         cJSON_AddItemToArray(types, cJSON_CreateString(type->record.name));
-        cJSON_AddItemToArray(rules,
-                             condition("type", "params", &type->record, type->kind == KIND_CODE));
+        cJSON_AddItemToArray(rules, condition("type", "params", &type->record,
+                                              type->kind == KIND_CODE || type->kind == KIND_MODEL));
     }
     return schema;
 }
@@ -353,10 +353,11 @@ static cJSON *material_schema(void)
     return schema;
 }
 
-static cJSON *declaration_schema(void)
+/* `of_model`: it sets something of the model's tree, and has its default there. */
+static cJSON *declaration_schema(const char *about, bool of_model)
 {
     static const struct param doc = {.type = PARAM_TEXT}, number = {.type = PARAM_FLOAT};
-    cJSON *properties, *schema = closed_object("A parameter that is declared.", &properties);
+    cJSON *properties, *schema = closed_object(about, &properties);
     cJSON *name = typed("string"), *types;
 
     cJSON_AddStringToObject(name, "pattern", "^(?!gl_)(?!.*__)[A-Za-z_][A-Za-z0-9_]{0,63}$");
@@ -368,11 +369,37 @@ static cJSON *declaration_schema(void)
     for (int i = 0; declared_param_aliases[i].name; i++) {
         cJSON_AddItemToArray(types, cJSON_CreateString(declared_param_aliases[i].name));
     }
-    cJSON_AddTrueToObject(properties, "default");
+    if (of_model) {
+        cJSON *sets = typed("string");
+        cJSON_AddStringToObject(sets, "pattern",
+                                "^/nodes/[^/]+/(params|transform)/[^/.]+(\\.[xyzw])?$");
+        cJSON_AddItemToObject(properties, "sets", sets);
+    } else {
+        cJSON_AddTrueToObject(properties, "default");
+    }
     cJSON_AddItemToObject(properties, "range", vector_schema(number_schema(&number), 2));
     cJSON_AddItemToObject(properties, "doc", text_schema(&doc));
     require(schema, "name");
     require(schema, "type");
+    if (of_model) {
+        require(schema, "sets");
+    }
+    return schema;
+}
+
+/* A node, or one with what may be other in each instance. */
+static cJSON *model_schema(void)
+{
+    cJSON *schema = cJSON_CreateObject();
+    cJSON *forms = cJSON_AddArrayToObject(schema, "anyOf");
+    cJSON *properties, *form = closed_object(model_type.doc, &properties);
+
+    cJSON_AddItemToObject(properties, model_type.params[0].name,
+                          list_schema("setting", LIMIT_DECLARED));
+    cJSON_AddItemToObject(properties, "root", reference("node"));
+    require(form, "root");
+    cJSON_AddItemToArray(forms, reference("node"));
+    cJSON_AddItemToArray(forms, form);
     return schema;
 }
 
@@ -382,10 +409,9 @@ static void add_document(cJSON *schema, cJSON *properties)
     add_properties(properties, &scene_info_type);
     cJSON_AddItemToObject(properties, "camera", reference("camera"));
     for (const struct resource_kind *kind = resource_kinds; kind->list; kind++) {
-        const char *definition = kind->table == &model_type ? "node" : kind->item;
         cJSON_AddItemToObject(properties, kind->list,
-                              kind->array ? list_schema(definition, (double)kind->limit)
-                                          : names_schema(definition, (double)kind->limit));
+                              kind->array ? list_schema(kind->item, (double)kind->limit)
+                                          : names_schema(kind->item, (double)kind->limit));
     }
     cJSON_AddItemToObject(properties, "environment", reference("environment"));
     cJSON_AddItemToObject(properties, "render", reference("render"));
@@ -404,7 +430,12 @@ static void add_definitions(cJSON *schema)
     for (size_t i = 0; i < sizeof records / sizeof records[0]; i++) {
         cJSON_AddItemToObject(definitions, records[i]->name, record_schema(records[i]));
     }
-    cJSON_AddItemToObject(definitions, "declaration", declaration_schema());
+    cJSON_AddItemToObject(definitions, "declaration",
+                          declaration_schema("A parameter that is declared.", false));
+    cJSON_AddItemToObject(
+        definitions, "setting",
+        declaration_schema("A number of a model that instances may have of their own.", true));
+    cJSON_AddItemToObject(definitions, "model", model_schema());
     cJSON_AddItemToObject(definitions, "light", listed_schema(light_types));
     cJSON_AddItemToObject(definitions, "volume", listed_schema(volume_types));
     cJSON_AddItemToObject(definitions, "material", material_schema());
@@ -487,6 +518,7 @@ static cJSON *describe_resources(void)
 
     cJSON_AddItemToObject(resources, "primitive", describe_params(&primitive_type));
     cJSON_AddItemToObject(resources, "shader", describe_params(&shader_type));
+    cJSON_AddItemToObject(resources, "model", describe_params(&model_type));
     cJSON *types = cJSON_AddArrayToObject(resources, "declared_types");
     for (int i = 0; declared_param_types[i]; i++) {
         cJSON_AddItemToArray(types, cJSON_CreateString(declared_param_types[i]));

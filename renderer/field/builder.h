@@ -22,6 +22,7 @@ struct builder_material_shader {
 };
 
 struct result;
+struct instance_values;
 
 struct builder {
     struct field *field;
@@ -38,6 +39,7 @@ struct builder {
     uint32_t index;    /* pre-order in the scene's tree, of the next node */
     uint32_t instance; /* number of the outermost `model` node around, 0: none */
     const struct node *instance_node;
+    const struct instance_values *values; /* of the innermost one; NULL: none */
     bool cutting;           /* what comes is taken away from something else, or bounds it; */
     bool cuts_transmissive; /* and light goes through that */
     bool hiding;            /* a node around is hidden */

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "field_code.h"
+#include "field_instance.h"
 #include "field_isolate.h"
 #include "field_materials.h"
 #include "field_sites.h"
@@ -284,7 +285,11 @@ static struct result emit_model(struct builder *b, const struct node *node,
         b->instance = number;
         b->instance_node = node;
     }
+    const struct instance_values *around = b->values;
+    const struct instance_values own = instance_values_of(b->scene, node, model);
+    b->values = &own;
     struct result result = field_emit(b, model->root, frame, slot, before);
+    b->values = around;
     if (outermost) {
         b->instance = 0;
     }
@@ -458,6 +463,7 @@ static struct result emit_node(struct builder *b, const struct node *node,
     return result;
 }
 
+/* `node` is as it is in the instance around. */
 static struct result emit_entered(struct builder *b, const struct node *node,
                                   const struct node_frame *outer, uint16_t slot,
                                   enum field_before before, struct result result)
@@ -503,10 +509,13 @@ static enum isolated_part part_of(const struct builder *b, const struct node *no
 }
 
 /* What is empty space has to stand somewhere, too. */
-static void check_empty(struct builder *b, const struct node *node, const struct node_frame *outer)
+static void check_empty(struct builder *b, const struct instance_values *values,
+                        const struct node *node, const struct node_frame *outer)
 {
     double from[12], ratio;
-    struct node_frame frame = node_frame_enter(outer, node, from, &ratio);
+    struct instance_room room;
+    const struct node *shown = instance_node(values, node, &room);
+    struct node_frame frame = node_frame_enter(outer, shown, from, &ratio);
     const struct resource *model =
         node->type->kind == KIND_MODEL ? node_model(b->scene, node) : NULL;
 
@@ -515,11 +524,13 @@ static void check_empty(struct builder *b, const struct node *node, const struct
         frame = node_frame_create(frame.point, frame.scale, frame.material);
     }
     if (model) {
-        check_empty(b, model->root, &frame);
+        const struct instance_values own = instance_values_of(b->scene, shown, model);
+        check_empty(b, &own, model->root, &frame);
     }
     for (size_t i = 0; i < node->child_count; i++) {
-        check_empty(b, node->children[i], &frame);
+        check_empty(b, values, node->children[i], &frame);
     }
+    instance_room_finish(&room);
 }
 
 static bool is_passed_over(struct builder *b, const struct node *node,
@@ -529,7 +540,7 @@ static bool is_passed_over(struct builder *b, const struct node *node,
         return true;
     }
     if (sites_is_empty(b)) {
-        check_empty(b, node, outer);
+        check_empty(b, b->values, node, outer);
         return true;
     }
     return false;
@@ -557,9 +568,11 @@ struct result field_emit(struct builder *b, const struct node *node, const struc
     bool within = b->within;
     b->hiding = hiding || hidden;
     b->within = part != ISOLATED_AROUND;
+    struct instance_room room;
     struct result result =
-        emit_entered(b, node, outer, slot, before,
+        emit_entered(b, instance_node(b->values, node, &room), outer, slot, before,
                      (struct result){.hidden = hidden, .apart = part == ISOLATED_AWAY});
+    instance_room_finish(&room);
     sites_close(b, site, &result);
     b->whole = whole;
     b->hiding = hiding;

@@ -50,6 +50,22 @@ static void mark(struct field_sites *sites, const struct node *node, enum site_c
     sites->changed = sites_mark(sites, node, change) || sites->changed;
 }
 
+/* What a parameter of a model sets in this instance, however many models further. */
+static void mark_target(struct field_sites *sites, const struct scene *scene,
+                        const struct node *instance, const struct node *node, int index)
+{
+    const struct resource *model = node_model(scene, node);
+
+    if (!model || (size_t)index < model->declared->first_declared) {
+        return;
+    }
+    const struct model_target target = model_target_of(scene, model, (size_t)index);
+    sites_mark_within(sites, target.node, instance, target.of_transform ? SITE_ALL : SITE_INSIDE);
+    if (!target.of_transform) {
+        mark_target(sites, scene, instance, target.node, target.index);
+    }
+}
+
 static bool mark_node(struct field_sites *sites, const struct scene *scene,
                       const struct parts *parts)
 {
@@ -66,6 +82,7 @@ static bool mark_node(struct field_sites *sites, const struct scene *scene,
     if (strcmp(member, "params") == 0 && parts->count == 4 &&
         is_numeric(&node->params, parts->at[3])) {
         mark(sites, node, SITE_INSIDE);
+        mark_target(sites, scene, node, node, record_type_find(node->params.type, parts->at[3]));
         return true;
     }
     return strcmp(member, "name") == 0;

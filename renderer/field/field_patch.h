@@ -4,7 +4,8 @@
  * bit.
  *
  * A patch applies to operations that set
- * - a number, vector, switch or list of as many points as before among a node's parameters,
+ * - a number, vector, switch or list of as many points as before among a node's parameters, those
+ *   of an instance that its model declares too,
  * - a node's transform, or a part of it,
  * - a number, colour or switch among a material's properties, unless light goes through it now and
  *   did not before, or the other way,

@@ -335,16 +335,46 @@ static void mark_around(struct field_sites *sites, uint32_t index)
     }
 }
 
-bool sites_mark(struct field_sites *sites, const struct node *node, enum site_change change)
+static uint32_t first_site(struct field_sites *sites, const struct node *node)
 {
     if (!sites->table) {
         make_table(sites);
     }
-    const uint32_t first = sites->table[slot_of(sites, node)];
+    return sites->table[slot_of(sites, node)];
+}
+
+static void mark_site(struct field_sites *sites, uint32_t index, enum site_change change)
+{
+    struct site *site = &sites->at[index];
+
+    site->change = change > site->change ? change : site->change;
+    mark_around(sites, index);
+}
+
+bool sites_mark(struct field_sites *sites, const struct node *node, enum site_change change)
+{
+    const uint32_t first = first_site(sites, node);
+
     for (uint32_t i = first; i != SITES_NONE; i = sites->at[i].same) {
-        struct site *site = &sites->at[i];
-        site->change = change > site->change ? change : site->change;
-        mark_around(sites, i);
+        mark_site(sites, i, change);
     }
     return first != SITES_NONE;
+}
+
+static bool is_within(const struct field_sites *sites, uint32_t index, const struct node *around)
+{
+    while (index != SITES_NONE && sites->at[index].node != around) {
+        index = sites->at[index].parent;
+    }
+    return index != SITES_NONE;
+}
+
+void sites_mark_within(struct field_sites *sites, const struct node *node,
+                       const struct node *around, enum site_change change)
+{
+    for (uint32_t i = first_site(sites, node); i != SITES_NONE; i = sites->at[i].same) {
+        if (is_within(sites, i, around)) {
+            mark_site(sites, i, change);
+        }
+    }
 }

@@ -112,6 +112,9 @@ size_t sites_touch(struct builder *b, enum sites_list list, size_t first, size_t
 
 /* All sites of the node; false: there is none. */
 bool sites_mark(struct field_sites *sites, const struct node *node, enum site_change change);
+/* Those alone that are in a site of `around`. */
+void sites_mark_within(struct field_sites *sites, const struct node *node,
+                       const struct node *around, enum site_change change);
 
 /* Writes the numbers of what has changed (field_compile.c). The field has the base's shape and what
  * the numbers were before. False: not only numbers have changed, or the scene is no field now; then

@@ -89,6 +89,65 @@ static void instances_are_what_they_stand_for(void **state)
     scene_destroy(explicit);
 }
 
+/* An arch whose parameters set a number, a component, a turn, a scale, and one of a model in it. */
+#define ARCH                                                                                       \
+    "'models':{'arch':{'params':["                                                                 \
+    "{'name':'wide','type':'float','sets':'/nodes/bar/params/size.x','range':[0.1,9]},"            \
+    "{'name':'blend','type':'float','sets':'/nodes/arch-root/params/k','range':[0.01,1]},"         \
+    "{'name':'turn','type':'vec3','sets':'/nodes/bar/transform/rotation'},"                        \
+    "{'name':'grow','type':'float','sets':'/nodes/knob/transform/scale','range':[0.1,4]},"         \
+    "{'name':'round','type':'float','sets':'/nodes/knob/params/radius','range':[0.1,2]}],"         \
+    "'root':{'id':'arch-root','type':'smooth_union','params':{'k':0.2},'children':["               \
+    "{'id':'bar','type':'box','params':{'size':[1,0.4,0.5]}},"                                     \
+    "{'id':'knob','type':'model','params':{'model':'knob','radius':0.3},"                          \
+    "'transform':{'translation':[0,0.6,0]}}]}},"                                                   \
+    "'knob':{'params':[{'name':'radius','type':'float','sets':'/nodes/ball/params/radius',"        \
+    "'range':[0.01,5]}],'root':{'id':'ball','type':'sphere'}}},"
+#define WRITTEN_ARCH                                                                               \
+    "{'type':'smooth_union','params':{'k':%s},'transform':{'translation':[%d,0,0]},'children':["   \
+    "{'type':'box','params':{'size':[%s,0.4,0.5]},'transform':{'rotation':[%s]}},"                 \
+    "{'type':'sphere','params':{'radius':%s},"                                                     \
+    "'transform':{'translation':[0,0.6,0],'scale':%s}}]}"
+
+static void assert_same_distances(const struct field *a, const struct field *b)
+{
+    static float points[POINTS][3];
+
+    random_points(points, 3);
+    for (int i = 0; i < POINTS; i++) {
+        const double p[3] = {points[i][0], points[i][1], points[i][2]};
+        assert_true(field_distance(a, p) == field_distance(b, p));
+    }
+}
+
+static void instances_have_numbers_of_their_own(void **state)
+{
+    (void)state;
+    char written[2048];
+
+    snprintf(written, sizeof written,
+             "{'type':'union','children':[" WRITTEN_ARCH "," WRITTEN_ARCH "," WRITTEN_ARCH "]}",
+             "0.2", -2, "1", "0,0,0", "0.3", "1", "0.2", 0, "2.5", "0,0.4,0.1", "0.3", "1", "0.6",
+             2, "1", "0,0,0", "0.75", "1.5");
+    struct scene *instanced = scene_of(
+        ARCH, "{'type':'union','children':["
+              "{'id':'one','type':'model','params':{'model':'arch'},"
+              "'transform':{'translation':[-2,0,0]}},"
+              "{'id':'two','type':'model','params':{'model':'arch','wide':2.5,'turn':[0,0.4,0.1]}},"
+              "{'id':'three','type':'model','params':{'model':'arch','blend':0.6,'grow':1.5,"
+              "'round':0.75},'transform':{'translation':[2,0,0]}}]}");
+    struct scene *explicit = scene_of("", written);
+    struct field *a = compile_field(instanced), *b = compile_field(explicit);
+
+    assert_true(a->structure_hash == b->structure_hash);
+    assert_same_distances(a, b);
+    assert_memory_equal(&a->bounds, &b->bounds, sizeof a->bounds);
+    field_unref(a);
+    field_unref(b);
+    scene_destroy(instanced);
+    scene_destroy(explicit);
+}
+
 /* Models of models, each of two: the place and the number in the message are what counts. */
 static void assert_too_much(int levels, const char *child, const char *word)
 {
@@ -307,6 +366,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(instances_are_what_they_stand_for),
+        cmocka_unit_test(instances_have_numbers_of_their_own),
         cmocka_unit_test(models_that_grow_without_end_are_refused),
         cmocka_unit_test(code_is_the_same_in_both_languages),
         cmocka_unit_test(numbers_of_code_compile_nothing),

@@ -407,6 +407,40 @@ static void long_unions_are_patched(void **state)
     }
 }
 
+/* Instances with numbers of their own, one through another. */
+static void instances_are_patched(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "{'format':'fieldcast/1','models':{'lamp':{'params':["
+        "{'name':'high','type':'float','sets':'/nodes/pole/params/height','range':[0.1,4]},"
+        "{'name':'at','type':'vec3','sets':'/nodes/head/transform/translation'},"
+        "{'name':'size','type':'float','sets':'/nodes/head/params/radius','range':[0.1,2]}],"
+        "'root':{'id':'top','type':'smooth_union','children':[{'id':'pole','type':'cylinder'},"
+        "{'id':'head','type':'model','params':{'model':'head'}},"
+        "{'id':'row','type':'repeat','params':{'count':[2,0,2]},'children':["
+        "{'id':'small','type':'model','params':{'model':'head','radius':0.2}}]}]}},"
+        "'head':{'params':[{'name':'radius','type':'float','sets':'/nodes/ball/params/radius',"
+        "'range':[0.1,3]},{'name':'grow','type':'float','sets':'/nodes/ball/transform/scale',"
+        "'range':[0.5,2]}],'root':{'id':'ball','type':'sphere'}}},"
+        "'root':{'type':'group','children':["
+        "{'id':'a','type':'model','params':{'model':'lamp'}},"
+        "{'id':'b','type':'model','params':{'model':'lamp','high':2,'at':[0,1,0],'size':0.4}},"
+        "{'id':'c','type':'twist','children':["
+        "{'id':'d','type':'model','params':{'model':'lamp','at':[0,2,0]}}]},"
+        "{'id':'e','type':'model','params':{'model':'head','grow':1.5}}]}}";
+    struct random random = {66};
+
+    for (int i = 0; i < 12; i++) {
+        struct life life = begin(&random, json_text_valid_scene(text));
+        for (int n = 0; n < 60; n++) {
+            edit(&life, numeric_edit(&random, life.scene, false), true);
+        }
+        assert_true(life.patched > life.edits / 2);
+        end(&life);
+    }
+}
+
 static bool is_of_environment(const cJSON *ops)
 {
     for (const cJSON *op = ops->child; op; op = op->next) {
@@ -490,6 +524,7 @@ int main(void)
         cmocka_unit_test(every_type_is_patched),
         cmocka_unit_test(the_examples_are_patched),
         cmocka_unit_test(long_unions_are_patched),
+        cmocka_unit_test(instances_are_patched),
         cmocka_unit_test(patching_two_fields_allocates_nothing),
         cmocka_unit_test(any_edit_is_patched_or_refused),
     };

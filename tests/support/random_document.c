@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "protocol/edit.h"
+
 const struct random_kind random_kinds[RANDOM_KINDS] = {
     [RANDOM_LIGHTS] = {"lights", offsetof(struct scene, lights), "type", NULL, light_types},
     [RANDOM_VOLUMES] = {"volumes", offsetof(struct scene, volumes), "type", NULL, volume_types},
@@ -270,6 +272,81 @@ cJSON *random_tree(struct random *random, size_t nodes, const struct scene *scen
     return node;
 }
 
+/* --- parameters of models --- */
+
+static const struct node *random_node_below(struct random *random, const struct node *top)
+{
+    const struct node *node = top;
+
+    while (node->child_count > 0 && random_chance(random, 0.7)) {
+        node = node->children[random_below(random, node->child_count)];
+    }
+    return node;
+}
+
+/* Within what the row takes. */
+static cJSON *random_range(struct random *random, const struct param *param)
+{
+    double least, most;
+
+    param_range(param, &least, &most);
+    const bool beside_0 = param->above_min || param->nonzero || param->direction;
+    const double whole = param_is_whole(param->type) ? 1 : 0.25;
+    double low = fmax(least, -2), high;
+    low = beside_0 && least >= -2 ? least + whole : beside_0 ? whole : low;
+    high = fmin(most, low + whole * (1 + (double)random_below(random, 8)));
+    const double range[] = {low, high};
+    return cJSON_CreateDoubleArray(range, 2);
+}
+
+/* NULL: nothing that could be a parameter was hit upon. */
+static cJSON *random_model_row(struct random *random, const struct resource *model, size_t index)
+{
+    const struct node *node = random_node_below(random, model->root);
+    const bool moved = random_chance(random, 0.3);
+    const struct record_type *type = moved ? &transform_type : node->params.type;
+    const size_t count = record_type_count(type);
+    const struct param *param = count ? &type->params[random_below(random, count)] : NULL;
+    const int components = param && param->type != PARAM_ENUM ? param_components(param->type) : 0;
+
+    if (components == 0) {
+        return NULL;
+    }
+    const bool part = components > 1 && (param->type == PARAM_BVEC3 || random_chance(random, 0.5));
+    const bool flag = param->type == PARAM_BOOL || param->type == PARAM_BVEC3;
+    const char *part_type = flag ? "bool" : param_is_whole(param->type) ? "int" : "float";
+    char name[24], sets[200];
+    cJSON *row = cJSON_CreateObject();
+    snprintf(name, sizeof name, "%c%zu", random_below(random, 2) ? 'a' : 'b', index);
+    snprintf(sets, sizeof sets, "/nodes/%s/%s/%s%s%c", node->id, moved ? "transform" : "params",
+             param->name, part ? "." : "",
+             part ? "xyzw"[random_below(random, (size_t)components)] : '\0');
+    cJSON_AddStringToObject(row, "name", name);
+    cJSON_AddStringToObject(row, "type",
+                            part ? part_type
+                            : param->uniform && random_chance(random, 0.5)
+                                ? "float"
+                                : param_type_name(param->type));
+    cJSON_AddStringToObject(row, "sets", sets);
+    if (!flag && (part || param->type != PARAM_COLOR)) {
+        cJSON_AddItemToObject(row, "range", random_range(random, param));
+    }
+    return row;
+}
+
+cJSON *random_model_rows(struct random *random, const struct resource *model)
+{
+    cJSON *rows = cJSON_CreateArray();
+
+    for (size_t i = random_below(random, 6); i > 0; i--) {
+        cJSON *row = random_model_row(random, model, i);
+        if (row) {
+            cJSON_AddItemToArray(rows, row);
+        }
+    }
+    return rows;
+}
+
 /* --- resources and documents --- */
 
 const char *random_type_name(struct random *random, int kind, const struct scene *scene)
@@ -324,6 +401,48 @@ static struct scene *read_again(struct scene *scene, const cJSON *document)
     return scene;
 }
 
+/* Takes the value; it may be refused. */
+static void set_value(struct scene *scene, const char *list, const char *name, const char *rest,
+                      cJSON *value)
+{
+    cJSON *ops = cJSON_CreateArray(), *op = cJSON_CreateObject();
+    char at[200];
+
+    snprintf(at, sizeof at, "/%s/%s/params%s%s", list, name, *rest ? "/" : "", rest);
+    cJSON_AddStringToObject(op, "op", "set");
+    cJSON_AddStringToObject(op, "at", at);
+    cJSON_AddItemToObject(op, "value", value);
+    cJSON_AddItemToArray(ops, op);
+    edit_apply(scene, ops, NULL, NULL, NULL);
+    cJSON_Delete(ops);
+}
+
+static void set_own_numbers(struct random *random, struct scene *scene, const struct node *top)
+{
+    for (const struct node *node = top; node; node = node_next(node, top)) {
+        const struct resource *model = node_model(scene, node);
+        const struct param *rows = node->params.type->params;
+        for (size_t i = model ? model->declared->first_declared : 0; model && rows[i].name; i++) {
+            if (random_chance(random, 0.6)) {
+                set_value(scene, "nodes", node->id, rows[i].name,
+                          random_value(random, &rows[i], scene));
+            }
+        }
+    }
+}
+
+static void add_model_params(struct random *random, struct scene *scene)
+{
+    for (size_t i = 0; i < scene->models.count; i++) {
+        const struct resource *model = scene->models.items[i];
+        set_value(scene, "models", model->name, "", random_model_rows(random, model));
+    }
+    for (size_t i = 0; i < scene->models.count; i++) {
+        set_own_numbers(random, scene, scene->models.items[i]->root);
+    }
+    set_own_numbers(random, scene, scene->root);
+}
+
 /* The document is read again after each part, so that the next may name what is in it. */
 struct scene *random_document(struct random *random, size_t nodes)
 {
@@ -353,5 +472,8 @@ struct scene *random_document(struct random *random, size_t nodes)
     cJSON_ReplaceItemInObjectCaseSensitive(document, "root", random_tree(random, nodes, scene));
     scene = read_again(scene, document);
     cJSON_Delete(document);
+    if (random_chance(random, 0.5)) {
+        add_model_params(random, scene);
+    }
     return scene;
 }

@@ -39,6 +39,8 @@ cJSON *random_record(struct random *random, const struct record_type *type,
 /* A subtree of 1 to `nodes` nodes without ids. */
 cJSON *random_tree(struct random *random, size_t nodes, const struct scene *scene);
 cJSON *random_resource(struct random *random, int kind, const struct scene *scene);
+/* Rows of parameters that set some of what is in the model's tree. */
+cJSON *random_model_rows(struct random *random, const struct resource *model);
 /* The name of a type or shader that a resource of this kind may have. */
 const char *random_type_name(struct random *random, int kind, const struct scene *scene);
 

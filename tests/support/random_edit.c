@@ -127,6 +127,9 @@ static cJSON *set_in_resource(struct random *random, const struct scene *scene)
     if (row->type && random_chance(random, 0.3)) {
         return set(place, row->type, cJSON_CreateString(random_type_name(random, kind, scene)));
     }
+    if (resource->root) {
+        return set(place, "params", random_model_rows(random, resource));
+    }
     if (!row->type && row->table && random_chance(random, 0.3)) { /* what it declares */
         const struct param *rows = row->table->params;
         while (rows->type != PARAM_ROWS) {

@@ -335,7 +335,7 @@ static void definitions_give_defaults_and_ranges(void **state)
     assert_null(rows[4].name);
     cJSON *json = json_parse(text, strlen(text), NULL);
     const struct record_type taken = {.name = "field", .params = rows + 2};
-    assert_false(declared_params_check(json, &taken, "/p", &err));
+    assert_false(declared_params_check(json, DECLARED_OF_CODE, &taken, "/p", &err));
     assert_string_equal(err.place, "/p/2/name");
     assert_string_equal(err.message, "every field has a \"c\" already");
     cJSON_Delete(json);

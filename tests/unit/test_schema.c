@@ -132,7 +132,13 @@ static void what_documents_declare(void **state)
     assert_float_equal(at(schema, "$defs/shader/properties/code/maxLength")->valuedouble,
                        LIMIT_CODE_BYTES, 0);
     assert_null(cJSON_GetObjectItem(rule_for("field"), "additionalProperties"));
-    assert_true(cJSON_IsFalse(at(rule_for("model"), "additionalProperties")));
+    assert_null(cJSON_GetObjectItem(rule_for("model"), "additionalProperties"));
+    assert_true(cJSON_IsFalse(at(rule_for("sphere"), "additionalProperties")));
+    assert_string_equal(at(schema, "$defs/model/anyOf")->child->child->valuestring, "#/$defs/node");
+    const cJSON *form = at(schema, "$defs/model/anyOf")->child->next;
+    assert_string_equal(at(form, "properties/params/items/$ref")->valuestring, "#/$defs/setting");
+    assert_null(cJSON_GetObjectItem(at(schema, "$defs/setting/properties"), "default"));
+    at(schema, "$defs/setting/properties/sets/pattern");
     assert_float_equal(at(rule_for("polygon"), "properties/points/minItems")->valuedouble, 3, 0);
     const cJSON *surface = at(rule_for("implicit"), "properties/parametric");
     assert_int_equal(cJSON_GetArraySize(at(surface, "properties")), 7);
@@ -357,6 +363,7 @@ static void registry_is_complete(void **state)
     }
     assert_described(at(registry, "resources/primitive"), &primitive_type);
     assert_described(at(registry, "resources/shader"), &shader_type);
+    assert_described(at(registry, "resources/model"), &model_type);
     assert_string_equal(at(registry, "resources/declared_types")->child->valuestring, "float");
     size_t limits;
     limits_table(&limits);
