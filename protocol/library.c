@@ -60,12 +60,12 @@ static bool check_members(const cJSON *document, const char *place, struct error
     return true;
 }
 
-/* Code, an equation, or the name of a primitive of the document. */
+/* Code, an equation, a surface, or the name of a primitive of the document. */
 static bool is_written(const struct node *node)
 {
     for (const struct param *param = node->params.type->params; param->name; param++) {
         if (param->type == PARAM_CODE || param->type == PARAM_EQUATION ||
-            param->type == PARAM_FUNCTION) {
+            param->type == PARAM_SURFACE || param->type == PARAM_FUNCTION) {
             return node->child_count == 0;
         }
     }
@@ -79,7 +79,7 @@ static bool check_kind(const struct library_entry *entry, const char *place, str
 
     if (entry->kind == LIBRARY_PRIMITIVE && !is_written(scene->root)) {
         return error_set(err, ERROR_INVALID, error_place(path, place, "root"),
-                         "a primitive is one node with code or an equation");
+                         "a primitive is one node with code, an equation or a surface");
     }
     if (entry->kind == LIBRARY_MATERIAL &&
         (scene->materials.count != 1 || !node_material(scene, scene->root))) {

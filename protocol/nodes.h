@@ -28,6 +28,7 @@ enum node_kind {
     KIND_MODEL,    /* an instance of a model of the scene */
     KIND_CODE,     /* a distance function written by a user */
     KIND_EQUATION, /* the zero set of an equation written by a user */
+    KIND_SURFACE,  /* a parametric surface written by a user */
 };
 
 enum node_exactness { EXACT, BOUND };

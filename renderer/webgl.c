@@ -222,13 +222,26 @@ static char *write_text(const struct field *field, const struct frame_uniforms *
     return ok ? text_end(&text) : NULL;
 }
 
+/* The text holds all numbers, and compilers of browsers take so many. */
+static bool has_room(const struct field *field, struct error *err)
+{
+    for (size_t i = 0; i < field->instruction_count; i++) {
+        if (field->instructions[i].choices == FIELD_PATCHES) {
+            return error_set(err, ERROR_LIMIT, "",
+                             "the patches of a parametric surface are too many numbers for the "
+                             "text of a shader");
+        }
+    }
+    return true;
+}
+
 char *renderer_webgl(const struct scene *scene, int level, struct error *err)
 {
     struct field *field = field_compile(scene, err);
     struct error warning;
     char *text = NULL;
 
-    if (field && field_try(field, &warning, err)) {
+    if (field && has_room(field, err) && field_try(field, &warning, err)) {
         const struct scene_bounds extent = snapshot_bounds(field, &scene->camera, false);
         /* Of any size: the shader is told which. */
         const struct camera camera = camera_from_record(&scene->camera, 1, 1);

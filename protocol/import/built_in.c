@@ -54,6 +54,7 @@ static const char *const *groups_of(const struct node_type *type)
     case KIND_MODEL:
     case KIND_CODE:
     case KIND_EQUATION:
+    case KIND_SURFACE:
         break;
     }
     return NULL;

@@ -85,6 +85,22 @@ const struct node_type node_fractals[] = {
      "isosurface maths formula quadric",
      .source = "Mitchell, Robust ray intersection with interval arithmetic, Graphics Interface "
                "(1990)"},
+    {.record = {"parametric", "A surface whose x, y and z are expressions in two parameters, as a "
+                "sheet. It is drawn by patches through its points.", PARAMS(
+        {"surface", PARAM_SURFACE, .main = true,
+         .doc = "Such as x = s*cos(t), y = a*t, z = s*sin(t), and the ranges of s and t."},
+        {"detail", PARAM_ENUM, .choices = (const char *const[]){"coarse", "fine", "finest", NULL},
+         .def = {1}, .doc = "Patches along each parameter: 16, 32 or 64."},
+        {"thickness", PARAM_FLOAT, SIZE, .def = {0.05}, .main = true, .doc = "Of the sheet."},
+        {"a", LETTER, .when = "surface~a", .doc = "The letter a in the surface."},
+        {"b", LETTER, .when = "surface~b", .doc = "The letter b."},
+        {"c", LETTER, .when = "surface~c", .doc = "The letter c."},
+        {"d", LETTER, .when = "surface~d", .doc = "The letter d."})},
+     .number = 76, .group = GROUP_PRIMITIVE, .kind = KIND_SURFACE, .exactness = BOUND,
+     .lipschitz = 0, .glsl = "", .words = "function patch spline bezier sheet helicoid maths "
+     "formula mesh curve",
+     .source = "Newton's method for the nearest point of bicubic patches; a tree of boxes and a "
+               "grid of distances tell which"},
     {.record = {.name = NULL}},
 };
 /* clang-format on */

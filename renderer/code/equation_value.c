@@ -86,13 +86,29 @@ static double node_value(const struct equation_node *node, const double *in, con
     return NAN;
 }
 
+static void find_values(const struct equation *equation, const double p[3], const double *letters,
+                        double *values)
+{
+    for (size_t i = 0; i < equation->count; i++) {
+        values[i] = node_value(&equation->nodes[i], values, p, letters);
+    }
+}
+
+double equation_expression_value(const struct equation *equation, const double *letters,
+                                 double *room)
+{
+    static const double origin[3];
+
+    room[0] = 0; /* what nodes without arguments name */
+    find_values(equation, origin, letters, room);
+    return room[equation->left];
+}
+
 double equation_value(const struct equation *equation, const double p[3], const double *letters)
 {
     double values[LIMIT_EQUATION_NODES + 1] = {0};
 
-    for (size_t i = 0; i < equation->count; i++) {
-        values[i] = node_value(&equation->nodes[i], values, p, letters);
-    }
+    find_values(equation, p, letters, values);
     const double f = values[equation->left] - values[equation->right];
     return equation->relation == EQUATION_GREATER || equation->relation == EQUATION_GREATER_EQUAL
                ? -f

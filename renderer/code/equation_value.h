@@ -10,5 +10,8 @@
 double equation_call(enum equation_name name, double a, double b);
 /* left - right, or right - left where the relation is > or >=: negative inside. */
 double equation_value(const struct equation *equation, const double p[3], const double *letters);
+/* Of an expression in letters alone. `room`: for a number of each of its nodes. */
+double equation_expression_value(const struct equation *equation, const double *letters,
+                                 double *room);
 
 #endif

@@ -77,8 +77,8 @@ static vf looseness(const struct machine *v, const struct operation *in)
         return vf_zero;
     }
     const float *cut = v->c->own + 4 * (FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S);
-    return vf_select(v->d[in->a] - v->radius > cut[FIELD_UNSTEADY], vf_zero,
-                     vf_all(cut[FIELD_LOOSE]));
+    const vf loose = vf_all(cut[FIELD_LOOSE]);
+    return vf_select(v->d[in->a] - v->radius > cut[FIELD_UNSTEADY], loose, loose + cut[FIELD_JUMP]);
 }
 
 static const struct operation_kind *kind_of(const struct machine *v, const struct operation *in)

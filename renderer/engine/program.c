@@ -146,7 +146,8 @@ static bool make(struct engine_program *program, struct operation *out,
                               .out = in->out,
                               .params = in->params,
                               .seen = in->seen};
-    out->unsteady = in->op == FIELD_SHAPE && (!in->sdf || in->choices == FIELD_POLYNOMIAL);
+    out->unsteady = in->op == FIELD_SHAPE &&
+                    (!in->sdf || in->choices == FIELD_POLYNOMIAL || in->choices == FIELD_PATCHES);
     return true;
 }
 
@@ -159,6 +160,11 @@ struct reading {
     uint32_t loops[LIMIT_NODE_DEPTH];
     int depth, bent; /* open loops; open changes of space that lengthen */
 };
+
+static bool has_steps(const struct node_type *type)
+{
+    return type && (type->kind == KIND_EQUATION || type->kind == KIND_SURFACE);
+}
 
 static bool read_one(struct engine_program *program, struct reading *r,
                      const struct field_instruction *in)
@@ -176,7 +182,7 @@ static bool read_one(struct engine_program *program, struct reading *r,
     program->count++;
     if (in->op == FIELD_SHAPE || in->op == FIELD_EMPTY) {
         r->mixed[in->a] = false;
-        r->steep[in->a] = in->type && in->type->kind == KIND_EQUATION && r->depth + r->bent > 0;
+        r->steep[in->a] = has_steps(in->type) && r->depth + r->bent > 0;
     } else if (in->op == FIELD_COMBINE) {
         to->mixes = in->sdf->soft || r->mixed[in->a] || r->mixed[in->b];
         r->mixed[in->a] = to->mixes;

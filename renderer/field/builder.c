@@ -96,6 +96,7 @@ struct builder_mark builder_mark(const struct builder *b)
                                  .shapes = field->shape_count,
                                  .members = field->member_count,
                                  .loops = b->loops,
+                                 .surface_rows = b->surface_rows,
                                  .trips = b->trips};
 }
 
@@ -117,6 +118,7 @@ void builder_rewind(struct builder *b, struct builder_mark mark)
     b->field->shape_count = mark.shapes;
     b->field->member_count = mark.members;
     b->loops = mark.loops;
+    b->surface_rows = mark.surface_rows;
     b->trips = mark.trips;
 }
 

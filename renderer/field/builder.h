@@ -46,6 +46,7 @@ struct builder {
     bool within;            /* what comes is not to be looked for in `isolation` */
     size_t depth;           /* nodes around, through models */
     size_t emitted;         /* nodes so far; those of models count for each use */
+    size_t surface_rows;    /* numbers of surfaces so far, by fours */
     uint64_t trips;         /* loop iterations so far, in the current loop */
     size_t loops;           /* whose iterations these are, and of which something is seen */
     bool failed;            /* what follows may be left out */
@@ -98,7 +99,7 @@ void builder_place_points(struct builder *b);
 /* What is taken back when something turns out to be empty space. */
 struct builder_mark {
     size_t instructions, vec4s, arguments, leaves, points, shapes, members;
-    size_t loops;
+    size_t loops, surface_rows;
     uint64_t trips;
 };
 struct builder_mark builder_mark(const struct builder *b);

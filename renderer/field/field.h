@@ -54,7 +54,8 @@ struct field_instruction {
     uint16_t a, b;                /* distance slots */
     uint16_t point, out;          /* point slots; 0 is the point asked for */
     /* What enumerated parameters hold, eight bits each, the last lowest; of a shape of a user's
-     * code: which of field.codes it is; of a polynomial FIELD_POLYNOMIAL. */
+     * code: which of field.codes it is; of a polynomial FIELD_POLYNOMIAL, of patches
+     * FIELD_PATCHES. */
     uint32_t choices;
     uint32_t params;    /* first vec4 of what it reads */
     uint32_t arguments; /* the same for the C evaluator: index into field.arguments */
@@ -94,19 +95,23 @@ enum {
 #define FIELD_FAR 1e9 /* empty space is this far away, as in glsl/field_mask.glsl */
 
 /* Behind the head of a shape of a user's code, which takes two vec4s: (half of the box that cuts
- * it, scale), (unsteady, loose, 0, 0), then what it declares. Distances above `unsteady` alone
- * change no faster than the way, others may differ by `loose` more; none is below minus `unsteady`:
- * see equation_unsteady() and, for estimates, polynomial.h. 0: all are steady. */
+ * it, scale), (unsteady, loose, jump, 0), then what it declares. Distances above `unsteady` alone
+ * change no faster than the way, others may differ by `jump` more; none is below minus `unsteady`:
+ * see equation_unsteady() and, for estimates, polynomial.h. 0: all are steady. Any two distances may
+ * differ by `loose` more than the way: see patches_loose(). */
 enum {
     FIELD_HEAD_VEC4S = 2,
     FIELD_CUT_VEC4S = 2,
-    FIELD_CUT_NUMBERS = 6,
+    FIELD_CUT_NUMBERS = SDF_CUT_NUMBERS,
     FIELD_UNSTEADY = 4,
     FIELD_LOOSE = 5,
+    FIELD_JUMP = 6,
 };
 #define FIELD_UNCUT 1e9 /* half of a box without an end */
 /* Behind these of a polynomial: the numbers of renderer/sdf/polynomial.h. */
 #define FIELD_POLYNOMIAL UINT32_MAX
+/* And of patches those of renderer/sdf/patches.h. */
+#define FIELD_PATCHES (UINT32_MAX - 1)
 
 /* A guard's two vec4s: (centre of the box, from the slot's lengths to the scene's), (half, 0).
  *

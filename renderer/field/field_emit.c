@@ -305,6 +305,7 @@ static bool continues(const struct builder *b, const struct node *node)
     case KIND_FLAT:
     case KIND_CODE:
     case KIND_EQUATION:
+    case KIND_SURFACE:
     case KIND_MODEL:
     case KIND_GROUP:
         return true;
@@ -343,6 +344,7 @@ static struct result emit_joining(struct builder *b, const struct node *node,
     case KIND_FLAT:
     case KIND_CODE:
     case KIND_EQUATION:
+    case KIND_SURFACE:
         own = emit_own_shape(b, node, frame, slot + joined, number);
         if (own.solid && joined) {
             builder_add_instruction(b, field_union_at(b, slot));

@@ -8,8 +8,10 @@
 
 #include "field_code.h"
 #include "field_materials.h"
+#include "field_parametric.h"
 #include "protocol/memory.h"
 #include "renderer/code/equation_expand.h"
+#include "renderer/sdf/patches.h"
 #include "renderer/sdf/polynomial.h"
 
 uint32_t field_choices(const struct record *params)
@@ -113,7 +115,8 @@ static struct bounds fill_cut(const struct field_call *call, double scale,
     }
     out_cut[3] = scale;
     out_cut[FIELD_UNSTEADY] = equation_unsteady(call->extent) * scale;
-    out_cut[FIELD_LOOSE] = 2 * out_cut[FIELD_UNSTEADY];
+    out_cut[FIELD_LOOSE] = 0;
+    out_cut[FIELD_JUMP] = 2 * out_cut[FIELD_UNSTEADY];
     return box;
 }
 
@@ -138,26 +141,17 @@ static void fill_form(const struct field_call *call, const double *numbers, int 
     memcpy(out, head, sizeof head);
 }
 
-/* An equation that is a polynomial: its coefficients are numbers of the field. */
-static struct result emit_polynomial(struct builder *b, const struct node *node,
-                                     const struct node_frame *frame, uint16_t slot, uint32_t number,
-                                     const struct field_call *call, const struct equation *equation)
+/* A shape whose numbers are no parameters, but made of them: `sdf` reads them. */
+static void emit_numbers(struct builder *b, const struct node *node, const struct node_frame *frame,
+                         uint16_t slot, uint32_t number, const struct sdf *sdf, uint32_t choices,
+                         const double cut[FIELD_CUT_NUMBERS], const double *numbers, size_t rows)
 {
-    enum { LETTERS = 5 }; /* behind size, radius and thickness */
-    const int degree = equation_degree(equation);
-    const size_t heads = FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S, rows = polynomial_rows(degree);
-    const int count = 4 * (int)(POLYNOMIAL_HEAD + rows);
-    double declared[SDF_NUMBERS_MAX], cut[FIELD_CUT_NUMBERS], head[FIELD_HEAD_NUMBERS];
-    double c[POLYNOMIAL_COEFFICIENTS_MAX], *numbers = memory_alloc((size_t)count, sizeof *numbers);
-    const struct bounds box = fill_cut(call, frame->scale, cut);
-    cut[FIELD_LOOSE] = POLYNOMIAL_ESTIMATE * call->extent * frame->scale;
-    cut[FIELD_UNSTEADY] = hypot(POLYNOMIAL_ESTIMATE, EQUATION_REACH) * call->extent * frame->scale;
+    const size_t heads = FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S;
+    const int count = 4 * (int)rows;
+    double head[FIELD_HEAD_NUMBERS];
+
     fill_head(b, frame, 1, number, head);
-    sdf_numbers(call->params, call->values, declared);
-    fill_form(call, declared, degree, numbers);
-    equation_expand(equation, declared + LETTERS, call->extent, degree, c);
-    polynomial_write(degree, c, numbers + (size_t)(4 * POLYNOMIAL_HEAD));
-    const uint32_t block = builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + POLYNOMIAL_HEAD + rows);
+    const uint32_t block = builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + rows);
     const uint32_t arguments =
         builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + FIELD_CUT_NUMBERS + (size_t)count);
     builder_put(b, block, 0, arguments, 12, frame->matrix);
@@ -166,18 +160,59 @@ static struct result emit_polynomial(struct builder *b, const struct node *node,
                 FIELD_CUT_NUMBERS, cut);
     builder_put(b, block + (uint32_t)heads + FIELD_CUT_VEC4S, 0,
                 arguments + 12 + FIELD_HEAD_NUMBERS + FIELD_CUT_NUMBERS, count, numbers);
-    free(numbers);
-    builder_add_trips(b, (uint64_t)polynomial_trips(degree));
     add_leaf(b, number, node);
     builder_add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,
                                                           .type = node->type,
-                                                          .sdf = &sdf_polynomial,
+                                                          .sdf = sdf,
                                                           .a = slot,
                                                           .point = frame->point,
-                                                          .choices = FIELD_POLYNOMIAL,
+                                                          .choices = choices,
                                                           .params = block,
                                                           .arguments = arguments});
+}
+
+/* An equation that is a polynomial: its coefficients are numbers of the field. */
+static struct result emit_polynomial(struct builder *b, const struct node *node,
+                                     const struct node_frame *frame, uint16_t slot, uint32_t number,
+                                     const struct field_call *call, const struct equation *equation)
+{
+    enum { LETTERS = 5 }; /* behind size, radius and thickness */
+    const int degree = equation_degree(equation);
+    const size_t rows = POLYNOMIAL_HEAD + polynomial_rows(degree);
+    double declared[SDF_NUMBERS_MAX], cut[FIELD_CUT_NUMBERS];
+    double c[POLYNOMIAL_COEFFICIENTS_MAX], *numbers = memory_alloc(4 * rows, sizeof *numbers);
+    const struct bounds box = fill_cut(call, frame->scale, cut);
+    cut[FIELD_JUMP] = POLYNOMIAL_ESTIMATE * call->extent * frame->scale;
+    cut[FIELD_UNSTEADY] = hypot(POLYNOMIAL_ESTIMATE, EQUATION_REACH) * call->extent * frame->scale;
+    sdf_numbers(call->params, call->values, declared);
+    fill_form(call, declared, degree, numbers);
+    equation_expand(equation, declared + LETTERS, call->extent, degree, c);
+    polynomial_write(degree, c, numbers + (size_t)(4 * POLYNOMIAL_HEAD));
+    builder_add_trips(b, (uint64_t)polynomial_trips(degree));
+    emit_numbers(b, node, frame, slot, number, &sdf_polynomial, FIELD_POLYNOMIAL, cut, numbers,
+                 rows);
+    free(numbers);
     return (struct result){.solid = true, .shown = true, .box = box};
+}
+
+/* A parametric surface: its patches are. */
+static struct result emit_surface(struct builder *b, const struct node *node,
+                                  const struct node_frame *frame, uint16_t slot, uint32_t number)
+{
+    double cut[FIELD_CUT_NUMBERS] = {FIELD_UNCUT, FIELD_UNCUT, FIELD_UNCUT, frame->scale};
+    struct result result = {0};
+    struct parametric_numbers *surface = parametric_numbers_of(b, node);
+
+    if (!surface) {
+        return result;
+    }
+    cut[FIELD_LOOSE] = patches_loose(surface->numbers) * frame->scale;
+    builder_add_trips(b, (uint64_t)patches_trips());
+    emit_numbers(b, node, frame, slot, number, &sdf_patches, FIELD_PATCHES, cut, surface->numbers,
+                 surface->rows);
+    result = (struct result){.solid = true, .shown = true, .box = surface->box};
+    parametric_release(surface);
+    return result;
 }
 
 /* A shape of a user's code: like another, but cut by a box and with its parameters apart. */
@@ -247,6 +282,8 @@ struct result field_emit_shape(struct builder *b, const struct node *node,
 
     if (node->type->kind == KIND_CODE || node->type->kind == KIND_EQUATION) {
         result = emit_called(b, node, frame, slot, number);
+    } else if (node->type->kind == KIND_SURFACE) {
+        result = emit_surface(b, node, frame, slot, number);
     } else {
         const struct sdf *sdf = sdf_find(node->type);
         emit_shape(b, node, sdf, frame, slot, number);

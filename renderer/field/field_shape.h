@@ -23,7 +23,8 @@ void field_join_transmissive(struct result *to, const struct result *from);
 void field_join(struct result *to, const struct result *from);
 
 /* Adds the instruction that leaves the distance of the node's own shape in `slot`; `number` is its
- * leaf's. The node is of KIND_SHAPE, KIND_FLAT, KIND_CODE or KIND_EQUATION. */
+ * leaf's. The node is of KIND_SHAPE, KIND_FLAT, KIND_CODE, KIND_EQUATION or
+ * KIND_SURFACE. */
 struct result field_emit_shape(struct builder *b, const struct node *node,
                                const struct node_frame *frame, uint16_t slot, uint32_t number);
 

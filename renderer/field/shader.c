@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "renderer/sdf/patches.h"
 #include "renderer/sdf/polynomial.h"
 
 /* The numbers of strings that #line gives to users' code. */
@@ -111,8 +112,8 @@ static void write_shape(struct shader_writer *w, const struct field_instruction 
         fprintf(w->out, ";\n");
     }
     fprintf(w->out, w->surface ? "h%u = vec3(masked(" : "d%u = masked(", in->a);
-    if (in->choices == FIELD_POLYNOMIAL) {
-        fprintf(w->out, "polynomial(");
+    if (in->choices == FIELD_POLYNOMIAL || in->choices == FIELD_PATCHES) {
+        fprintf(w->out, in->choices == FIELD_PATCHES ? "patches(" : "polynomial(");
         write_local(w, in);
         fprintf(w->out, ", %u) * P(%u).x", head + FIELD_HEAD_VEC4S + FIELD_CUT_VEC4S, head);
     } else if (in->sdf) {
@@ -502,9 +503,16 @@ char *shader_surface(const struct field *field)
 
 /* --- one instruction --- */
 
+static const struct sdf *find_sdf(const struct node_type *type)
+{
+    return type->kind == KIND_EQUATION  ? &sdf_polynomial
+           : type->kind == KIND_SURFACE ? &sdf_patches
+                                        : sdf_find(type);
+}
+
 bool shader_has_kernel(const struct node_type *type, enum shader_kernel kernel)
 {
-    const struct sdf *sdf = type->kind == KIND_EQUATION ? &sdf_polynomial : sdf_find(type);
+    const struct sdf *sdf = find_sdf(type);
     const struct sdf_domain *domain = sdf ? sdf->domain : NULL;
 
     switch (kernel) {
@@ -554,7 +562,7 @@ void shader_kernel(FILE *out, const char *name, const struct node_type *type, ui
         [KERNEL_AFTER] = {"float", "float d0, vec3 p0", "_after"},
     };
     const struct field none = {0};
-    const struct sdf *sdf = type->kind == KIND_EQUATION ? &sdf_polynomial : sdf_find(type);
+    const struct sdf *sdf = find_sdf(type);
     struct field_instruction in = {.type = type, .sdf = sdf, .b = 1, .choices = choices};
     struct shader_writer w = {.out = out, .field = &none};
     in.op = kernel == KERNEL_COMBINE || kernel == KERNEL_SHARE ? FIELD_COMBINE : FIELD_DISTANCE;

@@ -8,6 +8,7 @@
 #include "guard.glsl"
 #include "modifiers.glsl"
 #include "operations.glsl"
+#include "patches.glsl"
 #include "polynomial.glsl"
 #include "shapes.glsl"
 #include "solids.glsl"

@@ -265,8 +265,7 @@ double polynomial_distance(const double p[3], const double *n)
 /* Behind the numbers of the cut. */
 static double shape(const double p[3], const double *n)
 {
-    enum { CUT_NUMBERS = 6 };
-    return polynomial_distance(p, n + CUT_NUMBERS);
+    return polynomial_distance(p, n + SDF_CUT_NUMBERS);
 }
 
 const struct sdf sdf_polynomial = {.type = "implicit", .shape = shape};

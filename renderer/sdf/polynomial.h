@@ -56,7 +56,7 @@ static inline size_t polynomial_at(int d, int i, int j)
 /* Writes what stands behind the head; `c` in the order of polynomial_at, the largest of them 1. */
 void polynomial_write(int degree, const double *c, double *out);
 
-/* The row of such shapes; its numbers begin behind FIELD_CUT_NUMBERS. */
+/* The row of such shapes; its numbers begin behind SDF_CUT_NUMBERS. */
 extern const struct sdf sdf_polynomial;
 double polynomial_distance(const double p[3], const double *n);
 

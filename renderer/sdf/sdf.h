@@ -17,6 +17,7 @@
 enum {
     SDF_PARAMS_MAX = 24,               /* of one node, in values */
     SDF_NUMBERS_MAX = 24 + 1 + 2 * 64, /* and in numbers, with a list of points */
+    SDF_CUT_NUMBERS = 7,               /* in front of those of polynomials and patches: field.h */
     SDF_DOMAIN_VEC4S_MAX = 4,
     SDF_REPEAT_CELLS_MAX = 125, /* that one repeat looks at for one point */
 };

@@ -69,8 +69,9 @@ static void write_kernels(FILE *out, bool table)
 {
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
-        if (type->kind == KIND_EQUATION) {
-            write_kernel(out, type, FIELD_POLYNOMIAL, KERNEL_SHAPE, table);
+        if (type->kind == KIND_EQUATION || type->kind == KIND_SURFACE) {
+            write_kernel(out, type, type->kind == KIND_SURFACE ? FIELD_PATCHES : FIELD_POLYNOMIAL,
+                         KERNEL_SHAPE, table);
         } else if (sdf_find(type)) {
             write_choices(out, type, type->record.params, 0, table);
         }

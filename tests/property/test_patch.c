@@ -323,7 +323,9 @@ static struct scene *long_union(struct random *random, int count)
           out);
     for (int i = 0; i < count; i++) {
         const struct node_type *type = node_type_at(random_below(random, node_type_count()));
-        while (type->kind == KIND_CODE || type->kind == KIND_MODEL || type->kind == KIND_FLAT) {
+        /* The numbers of surfaces are made in memory of their own. */
+        while (type->kind == KIND_CODE || type->kind == KIND_MODEL || type->kind == KIND_FLAT ||
+               type->kind == KIND_SURFACE) {
             type = node_type_at(random_below(random, node_type_count()));
         }
         fputs(i > 0 ? "," : "", out);

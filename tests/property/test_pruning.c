@@ -195,7 +195,8 @@ static void every_type_keeps_its_bits(void **state)
 
     for (size_t t = 0; t < node_type_count(); t++) {
         const struct node_type *type = node_type_at(t);
-        const int scenes = type->kind == KIND_EQUATION ? EQUATION_SCENES : TYPE_SCENES;
+        const bool steps = type->kind == KIND_EQUATION || type->kind == KIND_SURFACE;
+        const int scenes = steps ? EQUATION_SCENES : TYPE_SCENES;
         for (int n = 0; n < scenes && type->kind != KIND_MODEL; n++) {
             look_at(&random, &operations[next++ % count], type);
         }

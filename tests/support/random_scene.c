@@ -166,12 +166,15 @@ static void write_params(struct random *random, FILE *out, const struct node_typ
     fprintf(out, "'params':{");
     for (const struct param *param = type->record.params; param->name; param++) {
         if (component_count(param) == 0 && param->type != PARAM_ENUM &&
-            param->type != PARAM_POINTS) {
+            param->type != PARAM_POINTS && param->type != PARAM_SURFACE) {
             continue;
         }
         fprintf(out, "%s'%s':", comma, param->name);
         comma = ",";
-        if (param->type == PARAM_ENUM) {
+        if (param->type == PARAM_SURFACE) {
+            fprintf(out, "{'x':'s*cos(t)','y':'0.3*cos(a)*(t-s)','z':'s*sin(t+b*s)','s':[-0.6,1],"
+                         "'t':[0,4]}");
+        } else if (param->type == PARAM_ENUM) {
             write_choice(random, out, param);
         } else if (param->type == PARAM_POINTS) {
             write_corners(random, out, param);

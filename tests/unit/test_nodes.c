@@ -54,6 +54,7 @@ static const struct {
     {73, "julia"},
     {74, "terrain"},
     {75, "implicit"},
+    {76, "parametric"},
     {101, "union"},
     {102, "intersection"},
     {103, "difference"},
@@ -159,13 +160,14 @@ static void rows_are_complete(void **state)
         [KIND_DISTANCE] = {GROUP_MODIFIER, "mod_"}, [KIND_DOMAIN] = {GROUP_MODIFIER, "dom_"},
         [KIND_GROUP] = {GROUP_STRUCTURE, "op_"},    [KIND_FLAT] = {GROUP_SHAPE, "sd2_"},
         [KIND_MODEL] = {GROUP_STRUCTURE, ""},       [KIND_CODE] = {GROUP_STRUCTURE, ""},
-        [KIND_EQUATION] = {GROUP_PRIMITIVE, ""},
+        [KIND_EQUATION] = {GROUP_PRIMITIVE, ""},    [KIND_SURFACE] = {GROUP_PRIMITIVE, ""},
     };
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
         char name[64];
         assert_int_equal(type->group, kinds[type->kind].group);
-        if (type->kind != KIND_MODEL && type->kind != KIND_CODE && type->kind != KIND_EQUATION) {
+        if (type->kind != KIND_MODEL && type->kind != KIND_CODE && type->kind != KIND_EQUATION &&
+            type->kind != KIND_SURFACE) {
             snprintf(name, sizeof name, "%s%s", kinds[type->kind].prefix,
                      type->kind == KIND_GROUP ? "union" : type->record.name);
             assert_string_equal(type->glsl, name);

@@ -65,8 +65,8 @@ static void every_row_is_everywhere(void **state)
     const struct node_type *type;
 
     for (size_t i = 0; (type = node_type_at(i)); i++) {
-        bool own =
-            type->kind != KIND_MODEL && type->kind != KIND_CODE && type->kind != KIND_EQUATION;
+        bool own = type->kind != KIND_MODEL && type->kind != KIND_CODE &&
+                   type->kind != KIND_EQUATION && type->kind != KIND_SURFACE;
         want(!own || sdf_find(type), type, "function in C");
         want(!own || in_glsl(type->glsl), type, "function in GLSL");
         want(has_golden(type->record.name), type, "golden picture");

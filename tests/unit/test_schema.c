@@ -202,7 +202,7 @@ static void assert_condition(const struct record_type *type, const struct param 
     assert_non_null(other->name);
     assert_ptr_not_equal(other, param);
     if (kind == '~') {
-        assert_int_equal(other->type, PARAM_EQUATION);
+        assert_true(other->type == PARAM_EQUATION || other->type == PARAM_SURFACE);
         assert_string_equal(at + 1, param->name);
         return;
     }
