@@ -7,9 +7,11 @@
 #include <string.h>
 
 #include "field_code.h"
+#include "field_parametric.h"
 #include "renderer/code/equation_expand.h"
 #include "renderer/code/equation_pole.h"
 #include "renderer/code/equation_value.h"
+#include "renderer/sdf/patches.h"
 
 /* A ray that passes a ball of the clip's size at TOLERANCE takes some 2,000 steps. */
 enum { RAYS = 400, STEPS = 2048, EVALUATIONS = 40000, LETTERS_MAX = 8 };
@@ -190,6 +192,83 @@ static void judge(const struct node *node, const struct field_call *call,
     free(equation);
 }
 
+/* --- parametric surfaces --- */
+
+/* The numbers of a field that consists of one; NULL: it has none. */
+static const double *patches_of(const struct field *field)
+{
+    for (size_t i = 0; field && i < field->instruction_count; i++) {
+        const struct field_instruction *in = &field->instructions[i];
+        if (in->sdf == &sdf_patches) {
+            return field->arguments + in->arguments + 12 + FIELD_HEAD_NUMBERS + FIELD_CUT_NUMBERS;
+        }
+    }
+    return NULL;
+}
+
+/* The greatest way between both at four points, where a polynomial through 0, 1/3, 2/3 and 1 is off
+ * the most. -1: the patch is left out. */
+static double patch_error(const double *n, int patch, const struct surface_reading *reading,
+                          const struct parametric_source *from, double *room)
+{
+    static const double at[][2] = {{0.13, 0.13}, {0.87, 0.5}, {0.5, 0.87}, {0.5, 0.5}};
+    const double side = patches_side(from->levels);
+    double worst = 0;
+    int place[2];
+
+    patches_place(patch, place);
+    for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
+        double drawn[3], meant[3];
+        if (!patches_point(n, patch, at[i][0], at[i][1], drawn)) {
+            return -1;
+        }
+        surface_point(reading, from->letters, (place[0] + at[i][0]) / side,
+                      (place[1] + at[i][1]) / side, room, meant);
+        const double way =
+            hypot(hypot(drawn[0] - meant[0], drawn[1] - meant[1]), drawn[2] - meant[2]);
+        worst = isfinite(way) ? fmax(worst, way) : INFINITY;
+    }
+    return worst;
+}
+
+static void judge_patches(const double *n, const struct parametric_source *from,
+                          struct equation_quality *quality)
+{
+    double room[LIMIT_EQUATION_NODES + 1];
+    struct surface_reading reading;
+    struct equation_errors errors;
+    int part;
+
+    if (!surface_reading_init(&reading, &from->surface, &part, &errors)) {
+        return;
+    }
+    quality->kind = QUALITY_SAMPLED;
+    quality->patches = patches_side(from->levels) * patches_side(from->levels);
+    for (int i = 0; i < quality->patches; i++) {
+        const double error = patch_error(n, i, &reading, from, room);
+        quality->left_out += error < 0;
+        quality->error = fmax(quality->error, error);
+    }
+    surface_reading_finish(&reading);
+}
+
+static void judge_surface(const struct node *node, struct equation_quality *quality)
+{
+    struct parametric_source from;
+    struct field *field = compile_alone(node);
+    const double *n = patches_of(field);
+
+    if (n && parametric_source_of(node, &from)) {
+        judge_patches(n, &from, quality);
+        quality->box = patches_box(n);
+        quality->thin = quality->error > record_number(&node->params, "thickness") / 2;
+        cJSON_Delete(from.json);
+    }
+    field_unref(field);
+}
+
+/* --- all --- */
+
 struct telling {
     const struct scene *scene;
     const char *node;
@@ -197,20 +276,31 @@ struct telling {
     void *data;
 };
 
+static void tell_node(const struct telling *telling, const struct node *node)
+{
+    struct equation_quality quality = {.kind = QUALITY_UNKNOWN, .degree = -1};
+    struct field_call call;
+
+    snprintf(quality.node, sizeof quality.node, "%s", node->id);
+    if (node->type->kind == KIND_EQUATION && field_call_of(telling->scene, node, &call)) {
+        snprintf(quality.place, sizeof quality.place, "%s", call.place);
+        judge(node, &call, &quality);
+    } else if (node->type->kind == KIND_SURFACE &&
+               strcmp(record_text(&node->params, "surface"), "{}") != 0) {
+        snprintf(quality.place, sizeof quality.place, "/nodes/%s/params/surface", node->id);
+        judge_surface(node, &quality);
+    } else {
+        return;
+    }
+    telling->tell(telling->data, &quality);
+}
+
 static void tell_tree(const struct telling *telling, const struct node *top)
 {
     for (const struct node *node = top; node; node = node_next(node, top)) {
-        struct equation_quality quality = {.kind = QUALITY_UNKNOWN, .degree = -1};
-        struct field_call call;
-        if (node->type->kind != KIND_EQUATION ||
-            (telling->node && strcmp(node->id, telling->node) != 0) ||
-            !field_call_of(telling->scene, node, &call)) {
-            continue;
+        if (!telling->node || strcmp(node->id, telling->node) == 0) {
+            tell_node(telling, node);
         }
-        snprintf(quality.node, sizeof quality.node, "%s", node->id);
-        snprintf(quality.place, sizeof quality.place, "%s", call.place);
-        judge(node, &call, &quality);
-        telling->tell(telling->data, &quality);
     }
 }
 
@@ -232,12 +322,19 @@ const char *equation_quality_text(const struct equation_quality *quality,
 {
     const double percent = quality->rays > 0 ? 100.0 * quality->unresolved / quality->rays : 0;
     const double *at = quality->at;
-    char what[80], share[40] = "";
+    char what[120], share[40] = "";
 
     if (quality->kind == QUALITY_POLYNOMIAL) {
         snprintf(what, sizeof what, "exact polynomial of degree %d", quality->degree);
     } else if (quality->kind == QUALITY_SAFE) {
         snprintf(what, sizeof what, "safe");
+    } else if (quality->kind == QUALITY_SAMPLED) {
+        char holes[48] = "";
+        if (quality->left_out > 0) {
+            snprintf(holes, sizeof holes, ", %d of them not finite", quality->left_out);
+        }
+        snprintf(what, sizeof what, "%d patches, off by %.1e%s%s", quality->patches, quality->error,
+                 quality->thin ? ", more than half of the thickness" : "", holes);
     } else if (quality->kind == QUALITY_UNKNOWN) {
         snprintf(what, sizeof what, "unknown: it cannot be drawn");
     } else {

@@ -203,15 +203,31 @@ double patches_distance(const double p[3], const double *n)
     return hypot(sqrt(square), within(near, n)) - n[7];
 }
 
-void patches_point(const double *n, int patch, double u, double v, double out[3])
+bool patches_point(const double *n, int patch, double u, double v, double out[3])
 {
     const double *tree = n + (size_t)(4 * (PATCHES_HEAD + (int)n[11]));
-    const double *patches = tree + (size_t)(8 * (int)n[15]);
+    const double *c = tree + (size_t)(8 * (int)n[15] + 4 * PATCH_ROWS * patch);
     const double uv[2] = {u, v};
     double at[ORDERS][3];
+    bool any = false;
 
-    patch_at(patches + (size_t)(4 * PATCH_ROWS * patch), uv, at);
+    for (int i = 0; i < 4 * PATCH_ROWS; i++) {
+        any = any || c[i] != 0;
+    }
+    patch_at(c, uv, at);
     memcpy(out, at[POINT], sizeof at[POINT]);
+    return any;
+}
+
+/* As plant() goes: two bits for each level. */
+void patches_place(int patch, int out[2])
+{
+    out[0] = out[1] = 0;
+    for (int level = 0; level < PATCHES_LEVELS_MAX; level++) {
+        const int bits = patch >> (2 * level);
+        out[0] |= (bits >> 1 & 1) << level;
+        out[1] |= (bits & 1) << level;
+    }
 }
 
 double patches_loose(const double *n)
@@ -425,7 +441,7 @@ static void fill_corners(const struct corner_search *s, const double *low, const
 }
 
 /* Empty space: one cell whose corners are far away. */
-static struct bounds write_nothing(int corners, double *out)
+static void write_nothing(int corners, double *out)
 {
     const double head[16] = {0, 0, 0, 1, 1, 1, 1, 0, 2, 2, 2, corners, 1, 1, 0, 0};
 
@@ -433,19 +449,27 @@ static struct bounds write_nothing(int corners, double *out)
     for (int i = 0; i < 8; i++) {
         out[(size_t)(4 * (PATCHES_HEAD + i))] = FAR_AWAY;
     }
-    return bounds_centred(0, 0, 0);
 }
 
-static struct bounds write_head(const double *root, double thickness, int corners, int nodes,
-                                int along[3], double *out)
+struct bounds patches_box(const double *n)
 {
-    const double half = thickness / 2;
+    const double *root = n + (size_t)(4 * (PATCHES_HEAD + (int)n[11])), half = n[7];
     struct bounds box;
-    double size[3];
 
     for (int i = 0; i < 3; i++) {
         box.low[i] = root[i] - half;
         box.high[i] = root[4 + i] + half;
+    }
+    return box.low[0] < box.high[0] ? box : bounds_centred(0, 0, 0);
+}
+
+static void write_head(const double *root, double thickness, int corners, int nodes, int along[3],
+                       double *out)
+{
+    const double half = thickness / 2;
+    double size[3];
+
+    for (int i = 0; i < 3; i++) {
         size[i] = root[4 + i] - root[i];
     }
     const double side = (float)fit(size, half, corners, along);
@@ -462,7 +486,6 @@ static struct bounds write_head(const double *root, double thickness, int corner
     out[13] = 1 / (BAND_WIDTH * side);
     out[14] = 0.5 * (BAND_BEGIN - sqrt(BAND_BEGIN * BAND_BEGIN - 1.5)) * side;
     out[15] = nodes;
-    return box;
 }
 
 static int first_patch(const double *tree, int nodes)
@@ -489,14 +512,15 @@ struct bounds patches_write(int levels, double thickness, const double *points, 
     const double *root = plant(&planting, levels, 0, 0);
     const int first = first_patch(parts.tree, nodes);
     if (first < 0) {
-        return write_nothing(corners, out);
+        write_nothing(corners, out);
+        return patches_box(out);
     }
-    const struct bounds box = write_head(root, thickness, corners, nodes, along, out);
+    write_head(root, thickness, corners, nodes, along, out);
     const struct corner_search search = {parts.tree, parts.patches, nodes, out[3]};
     parts.corners[1] = first;
     parts.corners[2] = parts.corners[3] = 0.5;
     fill_corners(&search, out, along, parts.corners);
-    return box;
+    return patches_box(out);
 }
 
 /* Behind the numbers of the cut. */

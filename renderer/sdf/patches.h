@@ -66,8 +66,11 @@ int patches_trips(void);
 struct bounds patches_write(int levels, double thickness, const double *points, double *out);
 /* See above. */
 double patches_loose(const double *n);
-/* A point of a patch, by numbers that are written. */
-void patches_point(const double *n, int patch, double u, double v, double out[3]);
+/* Of numbers that are written: the box around the sheet; a point of a patch, of which there are
+ * patches_side() squared (false: it is left out); where its square begins, in steps of patches. */
+struct bounds patches_box(const double *n);
+bool patches_point(const double *n, int patch, double u, double v, double out[3]);
+void patches_place(int patch, int out[2]);
 
 /* The row of such shapes; its numbers begin behind SDF_CUT_NUMBERS. */
 extern const struct sdf sdf_patches;

@@ -82,13 +82,14 @@ static bool prove_all(const char *file, const struct scene *scene)
 /* A warning where more is drawn than the equation has. */
 static void tell_quality(void *data, const struct equation_quality *quality)
 {
-    const bool unsafe = quality->kind == QUALITY_POLE || quality->kind == QUALITY_JUMP;
+    const bool wall = quality->kind == QUALITY_POLE || quality->kind == QUALITY_JUMP;
+    const bool unsafe = wall || quality->thin || quality->left_out > 0;
     char text[QUALITY_TEXT_BYTES];
 
     if (quality->kind != QUALITY_UNKNOWN) {
         fprintf(unsafe ? stderr : stdout, "%s%s: %s: %s%s\n", unsafe ? "fieldcast: warning: " : "",
                 (const char *)data, quality->place, equation_quality_text(quality, text),
-                unsafe ? "; the sign changes there and a wall is drawn" : "");
+                wall ? "; the sign changes there and a wall is drawn" : "");
     }
 }
 

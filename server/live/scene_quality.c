@@ -13,6 +13,7 @@ static const char *const words[] = {
     [QUALITY_SAFE] = "safe",
     [QUALITY_POLE] = "unsafe",
     [QUALITY_JUMP] = "unsafe",
+    [QUALITY_SAMPLED] = "sampled",
     [QUALITY_UNKNOWN] = "unknown",
 };
 
@@ -33,10 +34,24 @@ static void add(void *data, const struct equation_quality *quality)
         cJSON_AddItemToObject(json, pole ? "pole" : "jump",
                               cJSON_CreateDoubleArray(quality->at, 3));
     }
+    if (quality->kind == QUALITY_SAMPLED) {
+        cJSON_AddNumberToObject(json, "patches", quality->patches);
+        cJSON_AddNumberToObject(json, "left_out", quality->left_out);
+        cJSON_AddNumberToObject(json, "error", quality->error);
+        cJSON_AddBoolToObject(json, "thin", quality->thin);
+        cJSON *box = cJSON_AddArrayToObject(json, "box");
+        cJSON_AddItemToArray(box, cJSON_CreateDoubleArray(quality->box.low, 3));
+        cJSON_AddItemToArray(box, cJSON_CreateDoubleArray(quality->box.high, 3));
+    }
     cJSON_AddNumberToObject(json, "rays", quality->rays);
     cJSON_AddNumberToObject(json, "unresolved", quality->unresolved);
     cJSON_AddStringToObject(json, "text", equation_quality_text(quality, text));
     cJSON_AddItemToArray(data, json);
+}
+
+static bool is_judged(const struct node *node)
+{
+    return node->type->kind == KIND_EQUATION || node->type->kind == KIND_SURFACE;
 }
 
 static int count_equations(const struct node *top)
@@ -44,7 +59,7 @@ static int count_equations(const struct node *top)
     int count = 0;
 
     for (const struct node *node = top; node; node = node_next(node, top)) {
-        count += node->type->kind == KIND_EQUATION;
+        count += is_judged(node);
     }
     return count;
 }
@@ -67,7 +82,7 @@ static bool check_node(const struct scene *scene, const char *id, struct error *
 {
     const struct node *node = scene_find(scene, id);
 
-    return (node && node->type->kind == KIND_EQUATION) ||
+    return (node && is_judged(node)) ||
            error_set(err, ERROR_NOT_FOUND, "?node", "there is no node %.64s with an equation", id);
 }
 

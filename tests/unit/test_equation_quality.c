@@ -163,6 +163,54 @@ static void words_say_what_was_found(void **state)
     check_text(quality, "unsafe: pole at (0, 0.123, -2)");
 }
 
+/* --- parametric surfaces --- */
+
+static const struct {
+    const char *params, *text; /* without the error */
+    double least, most;        /* of it */
+    int left_out;
+    bool thin;
+} surfaces[] = {
+    /* Bicubic: exact but for the last digit of floats. */
+    {"'x': 's^3*t', 'y': 't^3', 'z': 's*t - s', 's': [0, 1], 't': [0, 1]", "1024 patches, off by ",
+     0, 1e-6, 0, false},
+    /* A part of the circle of an angle h: h^4 / 4! * 1.2 / 3^4, within a factor of 2. */
+    {"'x': 'cos(s)', 'y': 't', 'z': 'sin(s)', 's': [0, 6.2832], 't': [0, 1]",
+     "1024 patches, off by ", 4e-7, 1.2e-6, 0, false},
+    {"'x': 'sin(90s)', 'y': 't', 'z': 's', 's': [0, 1], 't': [0, 1]",
+     ", more than half of the thickness", 0.025, 0.4, 0, true},
+    {"'x': 's + 0/s', 'y': 't', 'z': '0*s', 's': [0, 1], 't': [0, 1]", ", 32 of them not finite", 0,
+     1e-6, 32, false},
+};
+
+static void surfaces_tell_their_error(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof surfaces / sizeof surfaces[0]; i++) {
+        char text[600], told[QUALITY_TEXT_BYTES];
+        snprintf(text, sizeof text,
+                 "{'format': 'fieldcast/1', 'root': {'id': 'it', 'type': 'parametric', 'params': "
+                 "{'surface': {%s}, 'thickness': 0.05}}}",
+                 surfaces[i].params);
+        const struct told all = judge_document(text, "it");
+        assert_int_equal(all.count, 1);
+        const struct equation_quality *quality = &all.list[0];
+        assert_int_equal(quality->kind, QUALITY_SAMPLED);
+        assert_string_equal(quality->place, "/nodes/it/params/surface");
+        assert_int_equal(quality->patches, 1024);
+        if (!(quality->error >= surfaces[i].least && quality->error <= surfaces[i].most)) {
+            fail_msg("%s: %g", surfaces[i].params, quality->error);
+        }
+        assert_int_equal(quality->left_out, surfaces[i].left_out);
+        assert_int_equal(quality->thin, surfaces[i].thin);
+        assert_true(quality->box.low[1] < quality->box.high[1] && quality->box.high[1] < 1.1);
+        assert_non_null(strstr(equation_quality_text(quality, told), surfaces[i].text));
+    }
+    const struct told none = judge_document(
+        "{'format': 'fieldcast/1', 'root': {'id': 'it', 'type': 'parametric'}}", NULL);
+    assert_int_equal(none.count, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -170,6 +218,7 @@ int main(void)
         cmocka_unit_test(a_pole_has_its_place),
         cmocka_unit_test(every_node_of_a_document_is_judged),
         cmocka_unit_test(words_say_what_was_found),
+        cmocka_unit_test(surfaces_tell_their_error),
     };
 
     return cmocka_run_group_tests_name("quality of equations", tests, NULL, NULL);
