@@ -97,8 +97,8 @@ enum {
 /* Behind the head of a shape of a user's code, which takes two vec4s: (half of the box that cuts
  * it, scale), (unsteady, loose, jump, 0), then what it declares. Distances above `unsteady` alone
  * change no faster than the way, others may differ by `jump` more; none is below minus `unsteady`:
- * see equation_unsteady() and, for estimates, polynomial.h. 0: all are steady. Any two distances may
- * differ by `loose` more than the way: see patches_loose(). */
+ * see equation_unsteady() and, for estimates, polynomial.h. 0: all are steady. Any two distances
+ * may differ by `loose` more than the way: see patches_loose(). */
 enum {
     FIELD_HEAD_VEC4S = 2,
     FIELD_CUT_VEC4S = 2,

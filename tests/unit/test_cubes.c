@@ -59,8 +59,8 @@ static void same_shapes_find_theirs(void **state)
 static void other_points_find_none(void **state)
 {
     struct error err = {0};
-    struct scene *scene = json_text_valid_scene(
-        "{'format':'fieldcast/1','root':{'id':'r','type':'polygon'}}");
+    struct scene *scene =
+        json_text_valid_scene("{'format':'fieldcast/1','root':{'id':'r','type':'polygon'}}");
     struct field *field = field_compile(scene, &err);
 
     (void)state;
