@@ -75,6 +75,7 @@ export const SCHEMA = readSchema({
                 float("lipschitz"),
             ],
             shader: [{ name: "properties", type: "rows", default: [] }, text("code", "code")],
+            model: [{ name: "params", type: "rows", default: [] }],
             declared_types: [
                 "float",
                 "int",

@@ -5,15 +5,13 @@ import { findResource, type SceneDocument } from "../src/model/document.ts";
 import { printNode, readDocument } from "../src/model/documentJson.ts";
 import type { JsonObject } from "../src/model/json.ts";
 import {
-    type Entry,
     entryOfNode,
     entryOfResource,
-    readEntry,
-    readEntryRows,
     renameEntry,
     type Target,
     takeEntry,
 } from "../src/model/library.ts";
+import { type Entry, readEntry, readEntryRows } from "../src/model/libraryEntries.ts";
 import { apply } from "../src/model/operations.ts";
 import { SCHEMA, scene } from "./fixture.ts";
 

@@ -309,7 +309,41 @@ async function library(page) {
     await page.locator('[data-testid=library] img:not([hidden])').nth(3).waitFor();
 }
 
+/** The dialog that makes a primitive, with some numbers of the jug chosen. */
+async function primitive(page, ...numbers) {
+    await tab(page, 'Nodes');
+    await row(page, 'jug').click({ button: 'right' });
+    await page.getByRole('menuitem', { name: 'Make a primitive of it …' }).click();
+    await page.getByTestId('primitive').waitFor();
+    for (const name of numbers) {
+        await page.getByRole('checkbox', { name: `${name} is a parameter` }).click();
+    }
+}
+
 const DIALOGS = [
+    ['primitive', (page) => primitive(page)],
+    ['primitive, chosen', (page) => primitive(page, 'Jug smoothness', 'Ball radius', 'Block size')],
+    ['primitive, wrong', async (page) => {
+        await primitive(page, 'Ball radius');
+        const name = page.getByLabel('Name of the parameter for radius');
+        await name.fill('2 wide');
+        await name.press('Enter');
+        await page.locator('.primitive .form-error').waitFor();
+    }],
+    ['primitive, made', async (page) => {
+        await primitive(page, 'Jug smoothness', 'Ball radius', 'Block size');
+        await page.getByRole('button', { name: 'Make primitive' }).click();
+        await inspector(page);
+        await page.locator('[data-param="ball_radius"]').waitFor();
+    }, { alone: true }],
+    ['primitive, model', async (page) => {
+        await primitive(page, 'Jug smoothness', 'Ball radius', 'Block size');
+        await page.getByRole('button', { name: 'Make primitive' }).click();
+        await inspector(page);
+        await page.locator('[data-param="ball_radius"]').waitFor();
+        await resource(page, 'Jug');
+        await page.locator('.settings-row').first().waitFor();
+    }, { alone: true }],
     ['library', library],
     ['library, search', async (page) => {
         await library(page);

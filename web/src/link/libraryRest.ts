@@ -7,7 +7,7 @@ import {
     LIBRARY_FORMAT,
     readEntry,
     readEntryRows,
-} from "../model/library.ts";
+} from "../model/libraryEntries.ts";
 import type { Request } from "./rest.ts";
 
 /* What a file brought. */

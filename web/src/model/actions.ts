@@ -14,10 +14,9 @@ import {
     viewFrom,
 } from "./camera.ts";
 import { clip, paste } from "./clipboard.ts";
-import { everyNode, type SceneDocument, topmost } from "./document.ts";
+import { everyNode, modelNamed, type SceneDocument, topmost } from "./document.ts";
 import { type Edit, movable, nameAll, removeNodes, reorder, setVisible } from "./edits.ts";
 import type { Motion } from "./grip.ts";
-import { modelNamed } from "./models.ts";
 import { movablesOf } from "./movables.ts";
 import { isParked, parkable } from "./moves.ts";
 import type { Operation } from "./operation.ts";
@@ -101,6 +100,12 @@ export const needsInstance: Reason = (app) => {
     return needsOne(app) ?? (instance ? null : text("why.noInstance"));
 };
 
+/* One node that can become a model. */
+export const needsPart: Reason = (app) =>
+    needsOne(app) ??
+    needsMovable(1)(app) ??
+    (needsInstance(app) === null ? text("why.isInstance") : null);
+
 export const canDissolve: Reason = (app) => {
     const document = documentOf(app);
     const node = document?.nodes.get(selectionOf(app)[0] ?? "");
@@ -168,9 +173,9 @@ export function tellDeleted(app: Pick<App, "stores">, name: string, label: strin
 }
 
 export function deleteNodes(app: App): void {
-    const document = documentOf(app);
+    const { document, schema } = app.stores.document.getState();
     const ids = document ? movable(document, selectionOf(app)) : [];
-    const edit = document && removeNodes(document, ids);
+    const edit = document && removeNodes(document, schema, ids);
     if (document && edit && perform(app, edit)) {
         tellDeleted(app, nameAll(document, ids), edit.label);
     }

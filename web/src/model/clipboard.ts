@@ -2,7 +2,7 @@
 /* Nodes as text, with what they name, so that they can be pasted into another scene too. */
 import { findResource, freeName, type SceneDocument } from "./document.ts";
 import { printNode, printResource, readDocument } from "./documentJson.ts";
-import { copyInto, type Edit, freshIds, movable, renamed } from "./edits.ts";
+import { copyInto, type Edit, freshIds, movable, renamedModel } from "./edits.ts";
 import { isObject, type Json, type JsonObject, listOf, textOf } from "./json.ts";
 import { adapted, adaptedResource, isSameResource, keyOf, needed, type Resolve } from "./naming.ts";
 import type { Operation } from "./operation.ts";
@@ -96,7 +96,7 @@ function incoming(
         const now = there === null || kept ? name : freeName(document, list, name, taken);
         taken.add(now);
         names.set(keyOf({ list, name }), now);
-        const inserted = list === "models" ? renamed(value, fresh) : value;
+        const inserted = list === "models" ? renamedModel(value, fresh) : value;
         return kept
             ? []
             : [{ op: "insert", into: `/${list}`, before: null, name: now, value: inserted }];

@@ -25,6 +25,7 @@ import {
     needsLens,
     needsMovable,
     needsOne,
+    needsPart,
     needsScene,
     needsSelection,
     never,
@@ -293,7 +294,7 @@ export const COMMANDS: readonly Command[] = [
         group: "edit",
         keys: ["Ctrl+Shift+G"],
         whyNot: canDissolve,
-        run: onDocument((document, ids) => dissolve(document, ids[0] ?? "")),
+        run: onDocument((document, ids, schema) => dissolve(document, schema, ids[0] ?? "")),
     }),
     ...(
         [
@@ -330,6 +331,22 @@ export const COMMANDS: readonly Command[] = [
         keys: ["Ctrl+Alt+K"],
         whyNot: needsMovable(1),
         run: onDocument((document, ids, schema) => makeModel(document, schema, ids)),
+    }),
+    row({
+        id: "primitive.make",
+        words: "parameters custom own shape component prefab node asset",
+        title: "Make a primitive of it …",
+        group: "edit",
+        whyNot: needsPart,
+        run: show({ popup: "primitive", model: null }),
+    }),
+    row({
+        id: "model.parameters",
+        words: "numbers expose settings primitive",
+        title: "Choose its parameters …",
+        group: "edit",
+        whyNot: needsInstance,
+        run: show({ popup: "primitive", model: null }),
     }),
     row({
         id: "model.edit",

@@ -2,6 +2,7 @@
 /* A scene as the editor holds it: flat maps of nodes and resources, immutable, shared between
  * versions. Walks, names, and which row describes a value. Its JSON is documentJson.ts. */
 import { declaredParams } from "./declaredParams.ts";
+import { settingParams } from "./modelParams.ts";
 import { LISTS, type ListName, parsePlace } from "./places.ts";
 import type { Param, Schema, TypeRow, Values } from "./schema.ts";
 import { findParam, nodeType } from "./schema.ts";
@@ -87,14 +88,32 @@ export function functionOf(
     return typeof name === "string" ? findResource(document, "primitives", name) : null;
 }
 
-/* The rows of a node's parameters: its type's, then those of the distance function it names. */
+/* The model that a node is an instance of, or null. */
+export function modelNamed(
+    schema: Schema,
+    document: SceneDocument,
+    node: Pick<SceneNode, "type" | "params"> | undefined,
+): Resource | null {
+    const row = nodeType(schema, node?.type ?? "")?.params.find(({ type }) => type === "model");
+    const name = row && node?.params[row.name];
+    return typeof name === "string" ? findResource(document, "models", name) : null;
+}
+
+/* The rows of a node's parameters: its type's, then those of the distance function or model that it
+ * names. */
 export function nodeParams(
     schema: Schema,
     document: SceneDocument,
     node: Pick<SceneNode, "type" | "params">,
 ): readonly Param[] {
     const own = nodeType(schema, node.type)?.params ?? NO_ROWS;
-    return join(own, declaredBy(schema, "primitives", functionOf(schema, document, node)));
+    const model = modelNamed(schema, document, node);
+    return join(
+        own,
+        model === null
+            ? declaredBy(schema, "primitives", functionOf(schema, document, node))
+            : settingParams(schema, document, model),
+    );
 }
 
 /* Those that are of use: a node that names a distance function has its name and what that
@@ -130,6 +149,8 @@ export function resourceParams(
             return schema.primitive;
         case "shaders":
             return schema.shader;
+        case "models":
+            return schema.model;
         default: {
             const builtIn = typesOf(schema, list).find((row) => row.type === type)?.params;
             const own = list === "materials" && findResource(document, "shaders", type);

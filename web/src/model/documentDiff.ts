@@ -10,8 +10,11 @@ import {
     type SceneDocument,
 } from "./document.ts";
 import { DocumentDraft } from "./documentDraft.ts";
+import { printNode } from "./documentJson.ts";
 import { nodeJson, resourceJson } from "./documentText.ts";
 import { equalJson, isObject, type Json, type JsonObject, listOf } from "./json.ts";
+import { SETTINGS, settingsOf } from "./modelParams.ts";
+import { needed } from "./naming.ts";
 import { type Operation, type Problem, Refusal } from "./operation.ts";
 import { applyOne } from "./operations.ts";
 import {
@@ -23,7 +26,7 @@ import {
     valuesPlace,
 } from "./places.ts";
 import { rising } from "./rising.ts";
-import { nodeType, type Schema, type Values } from "./schema.ts";
+import { type DeclaredRow, findParam, nodeType, type Schema, type Values } from "./schema.ts";
 import { usersOf } from "./usage.ts";
 
 export type Difference =
@@ -94,6 +97,7 @@ class Plan {
             const place = `/nodes/${this.#before.root}`;
             throw new Refusal("conflict", place, `the root keeps its id ${this.#before.root}`);
         }
+        this.#releaseTargets();
         this.#makeRoom(free);
         this.#removeGone(false);
         this.#records();
@@ -105,6 +109,10 @@ class Plan {
             this.#settle(root);
         }
         this.#removeGone(true);
+        for (const id of everyNode(after)) {
+            this.#ruling(id);
+        }
+        this.#declareSettings();
         for (const id of everyNode(after)) {
             this.#node(id);
         }
@@ -211,7 +219,8 @@ class Plan {
         }
     }
 
-    #node(id: string): void {
+    /* Its type, and the name that decides what other values it has. */
+    #ruling(id: string): void {
         const wanted = this.#after.nodes.get(id);
         const now = () => this.#draft.node(id, `/nodes/${id}`);
         const at = `/nodes/${id}`;
@@ -222,16 +231,70 @@ class Plan {
             this.#set(`${at}/type`, wanted.type);
         }
         const rows = nodeType(this.#schema, wanted.type)?.params ?? [];
-        const ruling = rows.filter(({ type }) => type === "function").map(({ name }) => name);
-        for (const name of ruling) {
+        for (const { name } of rows.filter(({ type }) => ["function", "model"].includes(type))) {
             const value = wanted.params[name] as Json | undefined;
             if (!equalJson(now().params[name] as Json | undefined, value)) {
                 this.#set(`${at}/params/${name}`, value ?? null);
             }
         }
+    }
+
+    #node(id: string): void {
+        const wanted = this.#after.nodes.get(id);
+        const now = () => this.#draft.node(id, `/nodes/${id}`);
+        const at = `/nodes/${id}`;
+        if (!wanted) {
+            return;
+        }
         this.#values(now().common, wanted.common, at);
         this.#values(now().transform, wanted.transform, `${at}/transform`);
         this.#values(now().params, wanted.params, `${at}/params`);
+    }
+
+    /* --- parameters of models --- */
+
+    /* Models behind those of which they hold instances. */
+    #inner(document: SceneDocument): readonly Resource[] {
+        const roots = document.models.map(({ root }) => printNode(document, root));
+        return needed(this.#schema, document, roots).flatMap(({ list, name }) => {
+            const model = list === "models" && findResource(document, list, name);
+            return model ? [model] : [];
+        });
+    }
+
+    #setSettings(name: string, rows: readonly DeclaredRow[]): void {
+        const now = findResource(this.#now, "models", name);
+        if (now && !equalJson(settingsOf(now) as Json, rows as Json)) {
+            this.#set(`/models/${name}/${SETTINGS}`, rows.length > 0 ? rows : null);
+        }
+    }
+
+    /* What is set cannot change in kind: rows that are to go or to set something else go first, of
+     * the outer models before those of the inner ones. */
+    #releaseTargets(): void {
+        const stays = (row: DeclaredRow, rows: readonly DeclaredRow[]): boolean =>
+            rows.some(
+                ({ name, type, sets }) =>
+                    name === row.name && type === row.type && sets === row.sets,
+            );
+        for (const model of this.#outer(this.#before)) {
+            const after = findResource(this.#after, "models", model.name);
+            const rows = after ? settingsOf(after) : [];
+            const kept = settingsOf(model).filter((row) => stays(row, rows));
+            this.#setSettings(model.name, kept);
+        }
+    }
+
+    #outer(document: SceneDocument): readonly Resource[] {
+        const inner = this.#inner(document);
+        const rest = document.models.filter((model) => !inner.includes(model));
+        return [...rest, ...[...inner].reverse()];
+    }
+
+    #declareSettings(): void {
+        for (const model of [...this.#outer(this.#after)].reverse()) {
+            this.#setSettings(model.name, settingsOf(model));
+        }
     }
 
     /* --- lists --- */
@@ -303,23 +366,26 @@ class Plan {
 
     /* --- trees --- */
 
-    /* A new node with what is new below it. Models that are not there yet are named later. */
+    /* A new node with what is new below it. Models that are not there yet are named later, and what
+     * they declare is set then. */
     #newNode(id: string): JsonObject {
         const isNew = (child: string): boolean => !this.#now.nodes.has(child);
         return this.#withoutModels(nodeJson(this.#schema, this.#after, id, isNew));
     }
 
     #withoutModels(json: JsonObject): JsonObject {
-        const { params, children, ...own } = json;
+        const { params, children, ...rest } = json;
         const rows = nodeType(this.#schema, String(json.type))?.params ?? [];
         const unknown = (name: string, value: Json | undefined): boolean =>
             rows.some((row) => row.name === name && row.type === "model") &&
             findResource(this.#now, "models", String(value)) === null;
+        const instance = rows.some(({ type }) => type === "model");
+        const own = (name: string) => !instance || findParam(rows, name) !== null;
         const values = Object.entries(isObject(params) ? params : {});
-        const kept = values.filter(([name, value]) => !unknown(name, value));
+        const kept = values.filter(([name, value]) => own(name) && !unknown(name, value));
         const inner = listOf(children).filter(isObject);
         return {
-            ...own,
+            ...rest,
             ...(kept.length > 0 ? { params: Object.fromEntries(kept) } : {}),
             ...(inner.length > 0
                 ? { children: inner.map((child) => this.#withoutModels(child)) }

@@ -66,10 +66,23 @@ export function readResource(list: ListName, name: string, json: JsonObject): Re
     };
 }
 
+/* The tree of a model, which is the model where it declares nothing. */
+export const treeOf = (json: JsonObject): JsonObject => (isObject(json.root) ? json.root : json);
+
+/* A model with another tree. */
+export const withTree = (json: JsonObject, tree: JsonObject): JsonObject =>
+    isObject(json.root) ? { ...json, root: tree } : tree;
+
 /* Adds a model's nodes to `nodes`. */
 export function readModel(name: string, json: JsonObject, nodes: Map<string, SceneNode>): Resource {
-    return { name, type: "", values: {}, root: readNode(json, null, nodes) };
+    const tree = treeOf(json);
+    const values = tree === json ? {} : omit(json, ["root"]);
+    return { name, type: "", values, root: readNode(tree, null, nodes) };
 }
+
+/* A model's JSON with this tree. */
+export const modelJson = (values: Values, tree: JsonObject): JsonObject =>
+    Object.keys(values).length > 0 ? { ...values, root: tree } : tree;
 
 function readList(list: ListName, json: Json | undefined, nodes: Map<string, SceneNode>) {
     if (LISTS[list].id) {
@@ -128,7 +141,7 @@ export function printResource(
 ): JsonObject {
     const row = LISTS[list];
     if (list === "models") {
-        return printNode(document, resource.root);
+        return modelJson(resource.values, printNode(document, resource.root));
     }
     return {
         ...(row.id ? { id: resource.name } : {}),

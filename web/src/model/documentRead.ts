@@ -42,13 +42,16 @@ const idIn = (item: Located): string => (isObject(item.json) ? textOf(item.json.
 const typeIn = (item: Located): string => (isObject(item.json) ? textOf(item.json.type) : "");
 const childrenOf = (item: Located) => item.members.get("children")?.value.items ?? [];
 
+/* The tree of a model: its root, or the model itself. */
+const treeIn = (item: Located): Located => item.members.get("root")?.value ?? item;
+
 function rootsIn(whole: Located): { item: Located; id: (base: SceneDocument) => string }[] {
     const root = whole.members.get("root")?.value;
     const models = whole.members.get("models")?.value.members ?? new Map();
     return [
         ...(root ? [{ item: root, id: (base: SceneDocument) => base.root }] : []),
         ...[...models].map(([name, { value }]) => ({
-            item: value as Located,
+            item: treeIn(value as Located),
             id: (base: SceneDocument) => findResource(base, "models", name)?.root ?? "",
         })),
     ];
@@ -243,7 +246,11 @@ class Check {
         const place = resourcePlace(list, name);
         const row = LISTS[list];
         if (list === "models") {
-            this.node(item);
+            const tree = treeIn(item);
+            if (tree !== item) {
+                this.#values(item, this.#schema.model, place, "a model", ["root"]);
+            }
+            this.node(tree);
             return;
         }
         if (!this.#object(item, place)) {

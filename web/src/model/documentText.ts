@@ -7,6 +7,7 @@ import {
     resourceParams,
     type SceneDocument,
 } from "./document.ts";
+import { modelJson } from "./documentJson.ts";
 import { isObject, type Json, type JsonObject, textOf } from "./json.ts";
 import { type Located, printText, type Span } from "./jsonText.ts";
 import { LISTS, type ListName, resourcePlace, valuesPlace } from "./places.ts";
@@ -68,7 +69,7 @@ export function resourceJson(
 ): JsonObject {
     const row = LISTS[list];
     if (list === "models") {
-        return nodeJson(schema, document, resource.root);
+        return modelJson(resource.values, nodeJson(schema, document, resource.root));
     }
     const params = resourceParams(schema, document, list, resource.type);
     const values = inOrder(params, resource.values);
@@ -148,11 +149,15 @@ class Outline {
         const place = resourcePlace(list, name);
         const { values } = LISTS[list];
         this.#add(place, item, key);
-        if (list === "models") {
+        const root = list === "models" ? item.members.get("root") : undefined;
+        if (list === "models" && root === undefined) {
             this.node(item, key);
             return;
         }
-        this.#members(place, item);
+        this.#members(place, item, root ? "root" : "");
+        if (root) {
+            this.node(root.value, root.key);
+        }
         if (values !== null) {
             this.#members(valuesPlace(list, name), item.members.get(values)?.value);
         }

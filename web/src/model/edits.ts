@@ -5,13 +5,16 @@ import {
     freeId,
     nodeLabel,
     parentOf,
+    preorder,
     type SceneDocument,
     siblingAfter,
     topmost,
 } from "./document.ts";
-import { printNode } from "./documentJson.ts";
-import { isObject, type JsonObject, listOf } from "./json.ts";
+import { printNode, treeOf } from "./documentJson.ts";
+import { isObject, type JsonObject, listOf, textOf } from "./json.ts";
+import { placeOf, released, SETTINGS, targetOf } from "./modelParams.ts";
 import type { Operation } from "./operation.ts";
+import type { Schema } from "./schema.ts";
 import { transformOf, transformUnder } from "./transform.ts";
 import { tidy, tidyAngle } from "./units.ts";
 
@@ -163,6 +166,25 @@ export function renamed(
     };
 }
 
+/* A model's JSON with new ids throughout; what its parameters set goes along. */
+export function renamedModel(json: JsonObject, fresh: (stem: string) => string): JsonObject {
+    const ids = new Map<string, string>();
+    const own = treeOf(json);
+    const tree = renamed(own, (stem) => {
+        const id = fresh(stem);
+        ids.set(stem, id);
+        return id;
+    });
+    const follow = (row: JsonObject): JsonObject => {
+        const target = targetOf(textOf(row.sets));
+        const node = target && ids.get(target.node);
+        return target && node ? { ...row, sets: placeOf({ ...target, node }) } : row;
+    };
+    return own === json
+        ? tree
+        : { ...json, [SETTINGS]: listOf(json[SETTINGS]).filter(isObject).map(follow), root: tree };
+}
+
 /* Copies with ids and names of their own. */
 export function copyInto(
     document: SceneDocument,
@@ -198,7 +220,7 @@ export function duplicate(document: SceneDocument, ids: readonly string[]): Edit
 }
 
 /* Removes nodes; selects the neighbour, so that Delete can be pressed again. */
-export function removeNodes(document: SceneDocument, ids: readonly string[]): Edit {
+export function removeNodes(document: SceneDocument, schema: Schema, ids: readonly string[]): Edit {
     const gone = movable(document, ids);
     const last = document.nodes.get(gone.at(-1) ?? "");
     const siblings = (last && parentOf(document, last)?.children) ?? [];
@@ -208,14 +230,21 @@ export function removeNodes(document: SceneDocument, ids: readonly string[]): Ed
         .filter((id) => rest.includes(id)).length;
     const next = rest[index] ?? rest.at(-1) ?? last?.parent ?? null;
     return {
-        ops: gone.map((id) => ({ op: "remove", at: `/nodes/${id}` })),
+        ops: [
+            ...released(
+                schema,
+                document,
+                gone.flatMap((id) => preorder(document, id)),
+            ),
+            ...gone.map((id): Operation => ({ op: "remove", at: `/nodes/${id}` })),
+        ],
         label: `delete ${nameAll(document, gone)}`,
         select: next === null || document.nodes.get(next)?.parent === null ? [] : [next],
     };
 }
 
 /* Takes a node away and leaves its children in its place. */
-export function dissolve(document: SceneDocument, id: string): Edit {
+export function dissolve(document: SceneDocument, schema: Schema, id: string): Edit {
     const node = document.nodes.get(id);
     if (!node || node.parent === null) {
         return { ops: [], label: "", select: [] };
@@ -226,7 +255,7 @@ export function dissolve(document: SceneDocument, id: string): Edit {
         moveTo(child, { into, before: id }),
     ]);
     return {
-        ops: [...moves, { op: "remove", at: `/nodes/${id}` }],
+        ops: [...released(schema, document, [id]), ...moves, { op: "remove", at: `/nodes/${id}` }],
         label: `dissolve ${nodeLabel(node)}`,
         select: node.children,
     };

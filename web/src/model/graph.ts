@@ -1,9 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* The tree of nodes as the graph draws it: a card for each node that no folded one hides, a wire
  * from each card to its parent, and where they stand. Derived from the document, never stored. */
-import { preorder, type SceneDocument, type SceneNode, shownParams } from "./document.ts";
+import {
+    modelNamed,
+    preorder,
+    type SceneDocument,
+    type SceneNode,
+    shownParams,
+} from "./document.ts";
 import { layoutTree, type Point } from "./layout.ts";
-import { modelNamed } from "./models.ts";
 import { isContainer } from "./placing.ts";
 import { nodeType, type Param, type ParamType, type Schema } from "./schema.ts";
 

@@ -12,42 +12,19 @@ import {
     type SceneDocument,
 } from "./document.ts";
 import { printNode, printResource, readDocument } from "./documentJson.ts";
-import { type Edit, freshIds, freshNames, renamed } from "./edits.ts";
-import { isObject, type Json, type JsonObject, listOf, textOf } from "./json.ts";
+import { type Edit, freshIds, freshNames, renamed, renamedModel } from "./edits.ts";
+import { isObject, type Json, type JsonObject, textOf } from "./json.ts";
 import { type Ground, landingTransform } from "./landing.ts";
+import type { Entry, EntryKind } from "./libraryEntries.ts";
 import { adapted, adaptedResource, isSameResource, keyOf, needed, type Resolve } from "./naming.ts";
 import type { Operation } from "./operation.ts";
-import type { ListName } from "./places.ts";
+import type { ListName, SavedList } from "./places.ts";
 import { placing, type Way } from "./placing.ts";
 import { type NodeType, nodeType, type Schema } from "./schema.ts";
-
-export const LIBRARY_FORMAT = "fieldcast-library/1";
-
-export const ENTRY_KINDS = ["primitive", "material", "model"] as const;
-export type EntryKind = (typeof ENTRY_KINDS)[number];
-
-/* As the server lists it. */
-export interface EntryRow {
-    readonly id: string;
-    readonly kind: EntryKind;
-    readonly name: string;
-    readonly nodes: number;
-}
-
-export interface Entry {
-    readonly kind: EntryKind;
-    readonly document: JsonObject;
-}
 
 /* Lists whose items an entry can hold, each after those that it names. */
 const LISTS_HELD = ["shaders", "primitives", "materials", "models"] as const;
 type Held = (typeof LISTS_HELD)[number];
-
-/* Lists whose items can be saved. */
-export type SavedList = Exclude<Held, "shaders">;
-
-export const isSavable = (list: ListName): list is SavedList =>
-    list !== "shaders" && LISTS_HELD.includes(list as Held);
 
 /* --- giving --- */
 
@@ -183,7 +160,7 @@ function takeResources(
             const own = known ?? (free ? name : freeName(document, list, name));
             names.set(keyOf({ list, name }), own);
             if (known === null) {
-                const value = list === "models" ? renamed(json, fresh) : json;
+                const value = list === "models" ? renamedModel(json, fresh) : json;
                 ops.push({ op: "insert", into: `/${list}`, before: null, name: own, value });
             }
         }
@@ -299,22 +276,3 @@ export const renameEntry = ({ kind, document }: Entry, name: string): Entry => (
     kind,
     document: { ...document, name },
 });
-
-export function readEntryRows(json: Json): readonly EntryRow[] {
-    return listOf(isObject(json) ? json.entries : [])
-        .filter(isObject)
-        .map(({ id, kind, name, nodes }) => ({
-            id: textOf(id),
-            kind: ENTRY_KINDS.find((one) => one === kind) ?? "model",
-            name: textOf(name),
-            nodes: typeof nodes === "number" ? nodes : 0,
-        }));
-}
-
-export function readEntry(json: Json): Entry {
-    const object = isObject(json) ? json : {};
-    return {
-        kind: ENTRY_KINDS.find((one) => one === object.kind) ?? "model",
-        document: isObject(object.document) ? object.document : {},
-    };
-}

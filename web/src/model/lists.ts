@@ -2,7 +2,7 @@
 /* The operations `insert`, `remove` and `move`, of nodes and of resources. */
 import { findResource, isInside, knowsType, type Resource, siblingAfter } from "./document.ts";
 import type { DocumentDraft } from "./documentDraft.ts";
-import { printNode, printResource, readResource } from "./documentJson.ts";
+import { printNode, printResource, readResource, treeOf } from "./documentJson.ts";
 import { isObject, type JsonObject } from "./json.ts";
 import { type Operation, Refusal } from "./operation.ts";
 import { ID_PATTERN, LISTS, type ListName, parsePlace, resourcePlace } from "./places.ts";
@@ -103,7 +103,7 @@ function insertResource(
         throw new Refusal("invalid", into, `there is no type ${read.type}`);
     }
     if (list === "models") {
-        checkNewNode(draft, value, into, new Set());
+        checkNewNode(draft, treeOf(value), into, new Set());
     }
     placed(draft.document[list], read, before, nameOf, into);
     const resource = list === "models" ? draft.addModel(read.name, value) : read;

@@ -1,20 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* Edits about models: making one of a part of the scene, and taking an instance apart again. */
 import { typeNaming } from "./add.ts";
-import {
-    findResource,
-    freeName,
-    nodeLabel,
-    type Resource,
-    type SceneDocument,
-    type SceneNode,
-} from "./document.ts";
+import { findResource, freeName, modelNamed, nodeLabel, type SceneDocument } from "./document.ts";
 import { printNode } from "./documentJson.ts";
 import { type Edit, freshIds, keepPlace, movable, moveTo, renamed } from "./edits.ts";
 import { isObject, type JsonObject, listOf } from "./json.ts";
+import { treeWith } from "./modelParams.ts";
 import type { Operation } from "./operation.ts";
 import { ID_PATTERN } from "./places.ts";
-import { nodeType, type Schema } from "./schema.ts";
+import type { ResourceEdit } from "./resources.ts";
+import type { Schema } from "./schema.ts";
 
 /* The root of a model: structure and nothing else. */
 const ROOT_TYPE = "group";
@@ -25,24 +20,15 @@ function nameFor(document: SceneDocument, label: string): string {
     return free ? label : freeName(document, "models", label);
 }
 
-/* The model that a node is an instance of, or null. */
-export function modelNamed(
-    schema: Schema,
-    document: SceneDocument,
-    node: SceneNode | undefined,
-): Resource | null {
-    const row = nodeType(schema, node?.type ?? "")?.params.find(({ type }) => type === "model");
-    const name = row && node?.params[row.name];
-    return typeof name === "string" ? findResource(document, "models", name) : null;
-}
-
 /* Moves nodes into a new model and puts an instance in their place. One node alone leaves its
- * transform to the instance, so that further instances begin at the origin. */
+ * transform to the instance, so that further instances begin at the origin. `label`: what to call
+ * it; as the first node, where it is left out. */
 export function makeModel(
     document: SceneDocument,
     schema: Schema,
     ids: readonly string[],
-): Edit | null {
+    label?: string,
+): ResourceEdit | null {
     const inside = movable(document, ids);
     const first = document.nodes.get(inside[0] ?? "");
     const type = typeNaming(schema, "model");
@@ -52,7 +38,7 @@ export function makeModel(
     }
     const { parent } = first;
     const alone = inside.length === 1;
-    const name = nameFor(document, nodeLabel(first));
+    const name = nameFor(document, label ?? nodeLabel(first));
     const fresh = freshIds(document);
     const rootId = fresh(`${name}-root`);
     const instance: JsonObject = {
@@ -78,7 +64,7 @@ export function makeModel(
     if (alone && Object.keys(first.transform).length > 0) {
         ops.push({ op: "set", at: `/nodes/${first.id}/transform`, value: null });
     }
-    return { ops, label: `make model ${name}`, select: [String(instance.id)] };
+    return { ops, label: `make model ${name}`, select: [String(instance.id)], name };
 }
 
 /* Puts the parts of a model in place of one of its instances. */
@@ -88,7 +74,7 @@ export function unpackModel(document: SceneDocument, schema: Schema, id: string)
     if (!node || node.parent === null || !model) {
         return null;
     }
-    const root = printNode(document, model.root);
+    const root = treeWith(schema, document, model, node.params, printNode(document, model.root));
     const plain = root.type === ROOT_TYPE && root.transform === undefined && !root.material;
     const parts = plain ? listOf(root.children).filter(isObject) : [root];
     const fresh = freshIds(document);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* What nodes and resources name, as JSON, and the same with names that hold in another scene. */
 import { findResource, type SceneDocument } from "./document.ts";
-import { printNode } from "./documentJson.ts";
+import { printNode, treeOf, withTree } from "./documentJson.ts";
+import { renamedModel } from "./edits.ts";
 import { equalJson, isObject, type JsonObject, listOf, textOf } from "./json.ts";
 import type { ListName } from "./places.ts";
 import { nodeType, type Schema } from "./schema.ts";
@@ -107,19 +108,19 @@ export function adaptedResource(
     resolve: Resolve,
 ): JsonObject {
     if (list === "models") {
-        return adapted(schema, json, resolve);
+        return withTree(json, adapted(schema, treeOf(json), resolve));
     }
     const shader = textOf(json.shader);
     const named = shader === "" ? null : resolve({ list: "shaders", name: shader });
     return list === "materials" && named !== null ? { ...json, shader: named } : json;
 }
 
-/* Without the ids of nodes, which are new in each scene. */
-function withoutIds({ id: _id, children, ...own }: JsonObject): JsonObject {
-    const inner = listOf(children).filter(isObject).map(withoutIds);
-    return inner.length > 0 ? { ...own, children: inner } : own;
+/* A model with ids that are the same for the same tree: those of nodes are new in each scene. */
+function withPlainIds(model: JsonObject): JsonObject {
+    let count = 0;
+    return renamedModel(model, () => `${count++}`);
 }
 
 export function isSameResource(list: ListName, a: JsonObject, b: JsonObject): boolean {
-    return list === "models" ? equalJson(withoutIds(a), withoutIds(b)) : equalJson(a, b);
+    return list === "models" ? equalJson(withPlainIds(a), withPlainIds(b)) : equalJson(a, b);
 }

@@ -60,6 +60,7 @@ function rules(schema: Schema, name: string): boolean {
         ...schema.nodes.flatMap(({ params }) => params),
         ...schema.primitive,
         ...schema.shader,
+        ...schema.model,
     ];
     return all.some((param) => param.name === name && types.includes(param.type));
 }

@@ -35,6 +35,13 @@ export const LISTS: Readonly<Record<ListName, ListRow>> = {
     shaders: { one: "shader", type: null, types: null, values: null, id: false },
 };
 
+const SAVED = ["primitives", "materials", "models"] as const;
+
+/* Lists whose items can be saved to the library. */
+export type SavedList = (typeof SAVED)[number];
+
+export const isSavable = (list: ListName): list is SavedList => SAVED.includes(list as SavedList);
+
 export const LIST_NAMES = Object.keys(LISTS) as readonly ListName[];
 
 function isList(name: string | undefined): name is ListName {

@@ -11,7 +11,7 @@ import {
     type SceneDocument,
 } from "./document.ts";
 import { printResource } from "./documentJson.ts";
-import { type Edit, freshIds, freshNames, renamed } from "./edits.ts";
+import { type Edit, freshIds, freshNames, renamedModel } from "./edits.ts";
 import type { Json, JsonObject } from "./json.ts";
 import type { Operation } from "./operation.ts";
 import { LISTS, type ListName, resourcePlace, valuesPlace } from "./places.ts";
@@ -162,7 +162,7 @@ export function duplicateResource(
 
 function copyOf(document: SceneDocument, list: ListName, resource: Resource): JsonObject {
     const value = printResource(document, list, resource);
-    return list === "models" ? renamed(value, freshIds(document)) : value;
+    return list === "models" ? renamedModel(value, freshIds(document)) : value;
 }
 
 /* Makes everything that names a resource name another; null: nothing. */

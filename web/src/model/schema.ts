@@ -46,6 +46,8 @@ export interface DeclaredRow extends JsonObject {
     readonly name: string;
     readonly type: string;
     readonly default?: Json;
+    /* Of a model: the place in its tree; its default is what is there. */
+    readonly sets?: string;
     readonly range?: readonly [number, number];
     readonly doc?: string;
 }
@@ -142,13 +144,14 @@ export interface Schema {
     readonly camera: readonly Param[];
     readonly environment: readonly Param[];
     readonly render: readonly Param[];
-    /* What a document's own distance functions and shaders consist of. */
     /* The members of a question about an ideal. */
     readonly ideal: readonly Param[];
     /* How the equation of a parametric surface is found. */
     readonly implicitize: readonly Param[];
+    /* What a document's own distance functions, shaders and models consist of. */
     readonly primitive: readonly Param[];
     readonly shader: readonly Param[];
+    readonly model: readonly Param[];
     /* Types that their parameters may have. */
     readonly declared: readonly ParamType[];
     readonly outputs: readonly Output[];
@@ -341,6 +344,7 @@ export function readSchema(json: Json): Schema {
         implicitize: readParams(tables.implicitize),
         primitive: readParams(resources.primitive),
         shader: readParams(resources.shader),
+        model: readParams(resources.model),
         declared: listOf(resources.declared_types).map((type) => textOf(type) as ParamType),
         outputs: listOf(tables.outputs)
             .filter(isObject)

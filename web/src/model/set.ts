@@ -136,10 +136,10 @@ function setNodeValue(
     if (param.type === "model") {
         draft.checkCycle(id, at);
     }
-    return param.type === "function" ? [back, ...convertNode(draft, id)] : [back];
+    return ["function", "model"].includes(param.type) ? [back, ...convertNode(draft, id)] : [back];
 }
 
-/* New rows of a distance function or a shader: whoever uses it keeps what still fits. */
+/* New rows of a distance function, a shader or a model: whoever uses it keeps what still fits. */
 function setResourceValue(
     draft: DocumentDraft,
     place: Extract<Place, { kind: "resource-value" }>,

@@ -7,7 +7,7 @@ import { DEFAULT_CAMERA } from "./camera.ts";
 import type { SceneDocument } from "./document.ts";
 import type { Guide } from "./guide.ts";
 import { EMPTY_HISTORY, type History } from "./history.ts";
-import type { EntryRow } from "./library.ts";
+import type { EntryRow } from "./libraryEntries.ts";
 import type { Operation } from "./operation.ts";
 import { NO_PROBLEMS, type Problems } from "./problems.ts";
 import { EMPTY_SCHEMA, type Schema } from "./schema.ts";

@@ -15,6 +15,7 @@ const TEXTS = {
     "why.oneOnly": "Select one node.",
     "why.notMovable": "Nothing is selected that can be moved so.",
     "why.noInstance": "It is no instance of a model.",
+    "why.isInstance": "It is an instance already: choose its parameters.",
     "why.twoNeeded": "Select two or more nodes.",
     "why.noParentStep": "It is already the first or last.",
     "why.noChildren": "The node has no children to keep.",

@@ -27,6 +27,7 @@ export type Popup =
     | "picture"
     | "library"
     | "groebner"
+    | "primitive"
     | null;
 
 /* What can be shown below the picture. */
@@ -128,6 +129,9 @@ export interface View {
     readonly popup: Popup;
     /* The node that the next addition goes into, while the popup is `input`. */
     readonly into: string | null;
+    /* The model whose parameters are chosen, while the popup is `primitive`; null: what is
+     * selected. */
+    readonly model: string | null;
     /* The place of the code that is being edited; null: the editor of code is closed. */
     readonly code: string | null;
     /* What is in front below the picture, where several are open. */
@@ -160,6 +164,7 @@ export const INITIAL_VIEW: View = {
     renaming: null,
     popup: null,
     into: null,
+    model: null,
     code: null,
     drawer: "graph",
     offered: [],

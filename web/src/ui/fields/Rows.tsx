@@ -1,7 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* The parameters that a distance function or a shader declares: name, type, default, range, help;
  * in their order. A new name keeps the values of all users, and the code follows. */
-import { ArrowDown, ArrowUp, ChevronRight, Ellipsis, Plus, Trash2 } from "lucide-react";
+import {
+    ArrowDown,
+    ArrowUp,
+    ChevronRight,
+    Ellipsis,
+    Plus,
+    SlidersHorizontal,
+    Trash2,
+} from "lucide-react";
 import { type ReactNode, useId, useState } from "react";
 import { typeNaming } from "../../model/add.ts";
 import { declaredParams, mayHaveRange, whyNotIdentifier } from "../../model/declaredParams.ts";
@@ -10,6 +18,7 @@ import { resourceOfPlace } from "../../model/places.ts";
 import { renameDeclared } from "../../model/resources.ts";
 import { type DeclaredRow, limitOf, type Param } from "../../model/schema.ts";
 import { checkValue } from "../../model/values.ts";
+import { placeTitle, words } from "../names.ts";
 import { useDocument, useEditor } from "../state.ts";
 import { t } from "../texts.ts";
 import { Button, IconButton } from "../widgets/Button.tsx";
@@ -31,6 +40,15 @@ interface Props extends FieldProps<readonly DeclaredRow[]> {
 const ignore = (): void => undefined;
 
 export default function RowsField(props: Props) {
+    const owner = resourceOfPlace(props.place);
+    return owner?.list === "models" ? (
+        <Settings model={owner.name} rows={props.value} label={props.label} />
+    ) : (
+        <Declared {...props} />
+    );
+}
+
+function Declared(props: Props) {
     const { label, value: rows, place, describedBy, onCommit, onRefuse } = props;
     const { link, stores } = useEditor();
     const schema = useDocument((state) => state.schema);
@@ -101,6 +119,39 @@ export default function RowsField(props: Props) {
             </Button>
         </div>
     );
+}
+
+/* What instances of a model may have of their own, and the way to change that. */
+function Settings({ model, rows, label }: SettingsProps) {
+    const { stores } = useEditor();
+    const titles = useDocument(({ document }) =>
+        rows.map(({ sets }) => placeTitle(document, sets ?? "")).join("\n"),
+    ).split("\n");
+    return (
+        // biome-ignore lint/a11y/useSemanticElements: a fieldset brings a look and a legend of its own
+        <div className="rows" role="group" aria-label={label}>
+            {rows.length === 0 && <p className="settings-none">{t("primitive.empty")}</p>}
+            {rows.map((row, i) => (
+                <div key={row.name} className="row settings-row">
+                    <span className="settings-name ellipsis">{words(row.name)}</span>
+                    <span className="settings-of ellipsis">{titles[i]}</span>
+                </div>
+            ))}
+            <Button
+                look="outline"
+                icon={<SlidersHorizontal size={14} aria-hidden="true" />}
+                onClick={() => stores.view.setState({ popup: "primitive", model })}
+            >
+                {t("primitive.choose.all")}
+            </Button>
+        </div>
+    );
+}
+
+interface SettingsProps {
+    model: string;
+    rows: readonly DeclaredRow[];
+    label: string;
 }
 
 interface RowProps {

@@ -2,9 +2,15 @@
 /* The forms of a node: its own parameters, where it stands, what it is made of. */
 import { CircleQuestionMark } from "lucide-react";
 import { useMemo } from "react";
-import { functionOf, modelOf, nodeLabel, nodeParams, shownParams } from "../../model/document.ts";
+import {
+    functionOf,
+    modelNamed,
+    modelOf,
+    nodeLabel,
+    nodeParams,
+    shownParams,
+} from "../../model/document.ts";
 import { rename } from "../../model/edits.ts";
-import { modelNamed } from "../../model/models.ts";
 import { nodeType, type Param } from "../../model/schema.ts";
 import { usersOf } from "../../model/usage.ts";
 import { TextField } from "../fields/Text.tsx";
@@ -93,6 +99,7 @@ function InstanceActs({ id }: { id: string }) {
     return (
         <div className="form-acts">
             <CommandButton id="model.edit" />
+            <CommandButton id="model.parameters" />
             <CommandButton id="model.unpack" />
         </div>
     );

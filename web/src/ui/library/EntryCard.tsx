@@ -2,7 +2,7 @@
 /* A card of the library: a click adds it to the scene; a menu renames and deletes it. */
 import { Ellipsis, Pencil, Plus, Trash2 } from "lucide-react";
 import { useState } from "react";
-import type { EntryRow } from "../../model/library.ts";
+import type { EntryRow } from "../../model/libraryEntries.ts";
 import { carryEntry } from "../drop/carry.ts";
 import { RenameField } from "../scenes/Card.tsx";
 import { useDocument, useEditor } from "../state.ts";

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The server's portrait of an entry of the library, on a tile. */
-import type { EntryRow } from "../../model/library.ts";
+import type { EntryRow } from "../../model/libraryEntries.ts";
 import { Picture } from "../scenes/Picture.tsx";
 import { useEditor } from "../state.ts";
 import "./library.css";

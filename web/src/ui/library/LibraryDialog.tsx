@@ -2,7 +2,7 @@
 /* The library as a dialog: what it has as cards, with what can be done with each; files of it. */
 import { BookmarkPlus, Download, Upload } from "lucide-react";
 import { useEffect, useRef, useState } from "react";
-import type { EntryRow } from "../../model/library.ts";
+import type { EntryRow } from "../../model/libraryEntries.ts";
 import { search } from "../../model/search.ts";
 import { useEditor, useLibrary, useView } from "../state.ts";
 import { t } from "../texts.ts";

@@ -3,17 +3,16 @@
  * anew after each change. */
 import { download } from "../../link/rest.ts";
 import { perform } from "../../model/actions.ts";
-import type { Resource } from "../../model/document.ts";
+import type { Resource, SceneDocument } from "../../model/document.ts";
 import {
-    type Entry,
-    type EntryRow,
     entryOfNode,
     entryOfResource,
     renameEntry,
-    type SavedList,
     type Target,
     takeEntry,
 } from "../../model/library.ts";
+import type { Entry, EntryRow } from "../../model/libraryEntries.ts";
+import type { SavedList } from "../../model/places.ts";
 import { addNotice } from "../../model/stores.ts";
 import type { Editor } from "../editor.ts";
 import { chooseFiles, report, SCENE_FILES } from "../files.ts";
@@ -70,6 +69,17 @@ function save(editor: Editor, entry: Entry | null): void {
 export function saveNode(editor: Editor, id: string): void {
     const { document, schema } = editor.stores.document.getState();
     save(editor, document && entryOfNode(schema, document, id));
+}
+
+/* A node of a document that is no scene's, under this name. */
+export function saveNodeOf(
+    editor: Editor,
+    document: SceneDocument,
+    id: string,
+    name: string,
+): void {
+    const entry = entryOfNode(editor.stores.document.getState().schema, document, id);
+    save(editor, entry && renameEntry(entry, name));
 }
 
 export function saveResource(editor: Editor, list: SavedList, resource: Resource): void {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What the library has, for those who offer it. */
 import { useEffect } from "react";
-import type { EntryRow } from "../../model/library.ts";
+import type { EntryRow } from "../../model/libraryEntries.ts";
 import { useEditor, useLibrary } from "../state.ts";
 import { refreshLibrary } from "./actions.ts";
 

@@ -2,7 +2,7 @@
 /* The preset materials as balls, and those of the library: what is active is shown on the node,
  * without an edit; a click takes it, a drag puts it on something. */
 import { useCallback, useEffect, useRef } from "react";
-import type { EntryRow } from "../../model/library.ts";
+import type { EntryRow } from "../../model/libraryEntries.ts";
 import { PRESET_GROUPS, PRESETS, type Preset } from "../../model/presets.ts";
 import { newResource } from "../../model/resources.ts";
 import { search } from "../../model/search.ts";

@@ -5,7 +5,7 @@ import { type ReactNode, useCallback, useEffect, useState } from "react";
 import type { SceneEntry } from "../../link/rest.ts";
 import { runCommand, searchAbsent, searchCommands } from "../../model/commandLookup.ts";
 import { nodeLabel, type SceneDocument, typesOf } from "../../model/document.ts";
-import type { EntryRow } from "../../model/library.ts";
+import type { EntryRow } from "../../model/libraryEntries.ts";
 import { LIST_NAMES, LISTS } from "../../model/places.ts";
 import { nodeType, outputsShown, type Schema } from "../../model/schema.ts";
 import { search } from "../../model/search.ts";

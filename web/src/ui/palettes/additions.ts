@@ -3,7 +3,7 @@
  * document. Shared by both palettes. */
 import { type Addition, typeNaming } from "../../model/add.ts";
 import { pathTo, type SceneDocument } from "../../model/document.ts";
-import type { EntryRow } from "../../model/library.ts";
+import type { EntryRow } from "../../model/libraryEntries.ts";
 import { isContainer, SOLID_MAKERS } from "../../model/placing.ts";
 import type { NodeType, Schema } from "../../model/schema.ts";
 import { search } from "../../model/search.ts";

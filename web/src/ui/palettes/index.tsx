@@ -9,6 +9,7 @@ import { CommandPalette } from "./Commands.tsx";
 import { Keys } from "./Keys.tsx";
 import { PictureDialog } from "./PictureDialog.tsx";
 
+const PrimitiveDialog = lazyPart(() => import("../primitives/PrimitiveDialog.tsx"));
 const Workbench = lazyPart(() => import("../algebra/Workbench.tsx"));
 
 export default function Palettes() {
@@ -20,6 +21,7 @@ export default function Palettes() {
             <PictureDialog />
             <ReferenceDialog />
             <LibraryDialog />
+            <PrimitiveDialog />
             <Workbench />
         </>
     );

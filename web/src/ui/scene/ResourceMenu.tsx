@@ -2,8 +2,7 @@
 /* What can be done with a resource, where its row and its form stand. */
 import { BookmarkPlus, Copy, Ellipsis, PackagePlus, SquareCode, Trash2 } from "lucide-react";
 import type { Resource } from "../../model/document.ts";
-import { isSavable } from "../../model/library.ts";
-import type { ListName } from "../../model/places.ts";
+import { isSavable, type ListName } from "../../model/places.ts";
 import { whyNotRemoved } from "../../model/usage.ts";
 import { addInstance, codePlace, duplicate, openCode, remove } from "../insertions.ts";
 import { useDocument, useEditor } from "../state.ts";

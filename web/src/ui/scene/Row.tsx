@@ -7,11 +7,11 @@ import {
     isApart,
     isShown,
     isVisible,
+    modelNamed,
     nodeLabel,
     type SceneNode,
 } from "../../model/document.ts";
 import { rename, setVisible } from "../../model/edits.ts";
-import { modelNamed } from "../../model/models.ts";
 import { nodeType } from "../../model/schema.ts";
 import { takesMaterial } from "../materials/drag.ts";
 import { useDocument, useEditor, useView } from "../state.ts";

@@ -6,13 +6,15 @@ import { outputsShown } from "../../model/schema.ts";
 import { setPreferences } from "../../model/stores.ts";
 import { COLOR, QUALITIES } from "../../model/view.ts";
 import { keyText } from "../layout/keys.ts";
+import { lazyPart } from "../lazy.tsx";
 import { outputTitle } from "../names.ts";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { Menu, MenuItem, MenuLine } from "../widgets/Menu.tsx";
 import { Tip } from "../widgets/Tip.tsx";
-import { Probe } from "./Probe.tsx";
 import "./view.css";
+
+const Probe = lazyPart(() => import("./Probe.tsx"));
 
 export function Outputs() {
     const aov = useView((view) => view.aov);

@@ -173,7 +173,7 @@ function Told({ pointed: { node, place, distance } }: { pointed: Pointed }) {
     );
 }
 
-export function Probe() {
+export default function Probe() {
     const aov = useView((view) => view.aov);
     const probing = useView((view) => view.preferences.probe);
     /* What is isolated is drawn for this page alone; REST draws the whole scene. */

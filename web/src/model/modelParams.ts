@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: MIT */
+/* Parameters of models: the number of the tree that each sets, and the tree as an instance has it. */
+import { declaredParams, rowsOf } from "./declaredParams.ts";
+import { nodeParams, type Resource, type SceneDocument } from "./document.ts";
+import { isObject, type Json, type JsonObject, listOf, textOf } from "./json.ts";
+import type { Operation } from "./operation.ts";
+import {
+    type DeclaredRow,
+    findParam,
+    type Param,
+    type Schema,
+    type Value,
+    type Values,
+    valueIn,
+} from "./schema.ts";
+import { usersOf } from "./usage.ts";
+import { numbersOf } from "./values.ts";
+
+/* The member of a model that declares them. */
+export const SETTINGS = "params";
+
+export interface Target {
+    readonly node: string;
+    readonly group: "params" | "transform";
+    readonly name: string;
+    /* Which component; null: all. */
+    readonly component: number | null;
+}
+
+const COMPONENTS = "xyzw";
+
+/* What "/nodes/ID/params/size.y" names; null: nothing. */
+export function targetOf(sets: string): Target | null {
+    const found = /^\/nodes\/([^/]+)\/(params|transform)\/([^/.]+)(?:\.([xyzw]))?$/.exec(sets);
+    const [, node = "", group, name = "", letter] = found ?? [];
+    return found === null
+        ? null
+        : {
+              node,
+              group: group as Target["group"],
+              name,
+              component: letter === undefined ? null : COMPONENTS.indexOf(letter),
+          };
+}
+
+export const placeOf = ({ node, group, name, component }: Target): string =>
+    `/nodes/${node}/${group}/${name}${component === null ? "" : `.${COMPONENTS[component]}`}`;
+
+export const settingsOf = (model: Resource): readonly DeclaredRow[] =>
+    rowsOf(model.values[SETTINGS]);
+
+/* The row of the tree that a target lies in, and what it holds there. */
+export function targetIn(
+    schema: Schema,
+    document: SceneDocument,
+    target: Target,
+): { param: Param; value: Value } | null {
+    const node = document.nodes.get(target.node);
+    const rows =
+        node &&
+        (target.group === "transform" ? schema.transform : nodeParams(schema, document, node));
+    const param = rows ? findParam(rows, target.name) : null;
+    if (!node || !param) {
+        return null;
+    }
+    return { param, value: valueIn(node[target.group], param) };
+}
+
+/* One component of a value, or all of it. */
+function partOf(value: Value, component: number | null, type: string): Value {
+    if (component !== null) {
+        const flags = Array.isArray(value) && typeof value[component] === "boolean";
+        return flags ? (value[component] as boolean) : (numbersOf(value)[component] ?? 0);
+    }
+    return type === "float" ? (numbersOf(value)[0] ?? 0) : value;
+}
+
+function enriched(schema: Schema, document: SceneDocument, model: Resource): readonly Param[] {
+    const rows = settingsOf(model);
+    return declaredParams(model.values[SETTINGS]).map((row, i): Param => {
+        const target = targetOf(textOf(rows[i]?.sets));
+        const found = target && targetIn(schema, document, target);
+        if (!target || !found) {
+            return row;
+        }
+        const { unit, step, doc } = found.param;
+        return {
+            ...row,
+            unit,
+            step,
+            doc: row.doc || doc,
+            default: partOf(found.value, target.component, row.type),
+        };
+    });
+}
+
+const known = new WeakMap<object, { key: string; params: readonly Param[] }>();
+
+/* The rows that instances have, with what the tree has as defaults. The same list while that is the
+ * same, so that what is shown of it need not be drawn anew. */
+export function settingParams(
+    schema: Schema,
+    document: SceneDocument,
+    model: Resource,
+): readonly Param[] {
+    const rows = settingsOf(model);
+    if (rows.length === 0) {
+        return rows as readonly never[];
+    }
+    const params = enriched(schema, document, model);
+    const key = JSON.stringify(params);
+    const last = known.get(rows);
+    if (last?.key === key) {
+        return last.params;
+    }
+    known.set(rows, { key, params });
+    return params;
+}
+
+/* --- the tree as an instance has it --- */
+
+function put(
+    record: JsonObject,
+    { name, component }: Target,
+    from: Json,
+    value: Value,
+): JsonObject {
+    if (component === null) {
+        return { ...record, [name]: value as Json };
+    }
+    const parts = Array.isArray(from) ? [...from] : numbersOf(from as Value);
+    parts[component] = value as Json as never;
+    return { ...record, [name]: parts };
+}
+
+/* A model's tree, printed, with an instance's own numbers in it. */
+export function treeWith(
+    schema: Schema,
+    document: SceneDocument,
+    model: Resource,
+    values: Values,
+    tree: JsonObject,
+): JsonObject {
+    let { ...node } = tree;
+    for (const { name, sets } of settingsOf(model)) {
+        const target = targetOf(textOf(sets));
+        const value = values[name];
+        if (target === null || value === undefined || target.node !== node.id) {
+            continue;
+        }
+        const record = isObject(node[target.group]) ? (node[target.group] as JsonObject) : {};
+        const found = targetIn(schema, document, target);
+        const from = record[target.name] ?? (found?.param.default as Json);
+        node = { ...node, [target.group]: put(record, target, from, value) };
+    }
+    const children = listOf(node.children).filter(isObject);
+    return children.length === 0
+        ? node
+        : {
+              ...node,
+              children: children.map((child) => treeWith(schema, document, model, values, child)),
+          };
+}
+
+/* --- what stands in the way --- */
+
+/* Takes away the parameters that set something of nodes that are about to go, and those that set
+ * these parameters of an instance. What sets something goes before what is set. */
+export function released(
+    schema: Schema,
+    document: SceneDocument,
+    ids: readonly string[],
+): Operation[] {
+    const gone = new Set(ids);
+    const kept = new Map(document.models.map((model) => [model.name, settingsOf(model)]));
+    const order: string[] = [];
+    /* Of an instance, by a parameter that its model is about to lose. */
+    const isLost = ({ node, group, name }: Target): boolean =>
+        group === "params" &&
+        document.models.some(
+            (model) =>
+                settingsOf(model).some((row) => row.name === name) &&
+                !kept.get(model.name)?.some((row) => row.name === name) &&
+                usersOf(schema, document, "models", model.name).some((user) => user.name === node),
+        );
+    const isGone = (target: Target | null): boolean =>
+        target !== null && (gone.has(target.node) || isLost(target));
+    for (let again = true; again; ) {
+        again = false;
+        for (const { name } of document.models) {
+            const rows = kept.get(name) ?? [];
+            const rest = rows.filter(({ sets }) => !isGone(targetOf(textOf(sets))));
+            if (rest.length < rows.length) {
+                kept.set(name, rest);
+                order.unshift(name);
+                again = true;
+            }
+        }
+    }
+    return [...new Set(order)].map((name) => {
+        const rows = kept.get(name) ?? [];
+        return {
+            op: "set",
+            at: `/models/${name}/${SETTINGS}`,
+            value: rows.length > 0 ? rows : null,
+        };
+    });
+}
