@@ -193,6 +193,9 @@ test('a plane that faces the viewer follows a way down, and a finger', async () 
     const session = await page.context().newCDPSession(page);
     const touch = (type, touchPoints) => session.send('Input.dispatchTouchEvent', { type, touchPoints });
     await touch('touchStart', [at]);
+    /* A finger that rests elsewhere gets the menu after half a second. */
+    await page.evaluate(() => new Promise((done) => setTimeout(done, 800)));
+    assert.equal(await page.getByRole('menu').count(), 0);
     await touch('touchMove', [{ x: at.x, y: at.y + 20 }]);
     await touch('touchMove', [{ x: at.x + 5, y: at.y + 50 }]);
     await touch('touchEnd', []);

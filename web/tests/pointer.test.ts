@@ -192,6 +192,19 @@ test("the palm beside a pen does nothing", () => {
     expect(machine.down(touch(2, 300, 300, { at: 2000 }))).toBe(true);
 });
 
+test("a finger that rests on what it can hold gets no menu, and holds it", () => {
+    held = holding();
+    machine.down(touch(1, 70, 70));
+    machine.held();
+    machine.up(touch(1, 70, 70));
+    expect(log).toEqual([]);
+    machine.down(touch(1, 70, 70));
+    machine.held();
+    machine.move(touch(1, 70, 100));
+    machine.up(touch(1, 70, 100));
+    expect(log).toEqual(["start", "hold 70 100", "end"]);
+});
+
 function holding(): Holding {
     return {
         start: () => void log.push("start"),

@@ -215,12 +215,15 @@ export class PointerMachine {
         }
     }
 
-    /* The button that was pressed did not move for LONG_PRESS_MS. */
+    /* The button that was pressed did not move for LONG_PRESS_MS. A finger that rests on something it
+     * can hold goes on to hold it. */
     held(): void {
         if (this.#state.kind === "pressed" && this.#state.press.type === "touch") {
-            const { press } = this.#state;
-            this.#state = { kind: "pressed", press, long: true, holding: null };
-            this.#actions.menu(press.x, press.y);
+            const { press, holding } = this.#state;
+            this.#state = { kind: "pressed", press, long: true, holding };
+            if (holding === null) {
+                this.#actions.menu(press.x, press.y);
+            }
         }
     }
 
