@@ -58,12 +58,15 @@ const points = (document) => nodeIn(document, 'shape').params.points;
 const when = (holds, what) => documentWhen(stage, id, holds, what);
 const near = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]) < 0.03;
 
-for (const type of ['extrude', 'revolve']) {
-    test(`a corner is dragged, as one step of undo: ${type}`, async () => {
-        await open(type);
+for (const [type, params] of [['extrude'], ['revolve'], ['revolve', { offset: 0.5 }]]) {
+    test(`a corner is dragged, as one step of undo: ${type} ${JSON.stringify(params ?? {})}`, async () => {
+        await open(type, params);
         const start = await stage.document(id);
         const before = await pixels(page);
-        const [, , top] = await corners();
+        const [left, , top] = await corners();
+        const { x, width } = await picture(page).boundingBox();
+        const unit = (top.x - left.x) / (POINTS[2][0] - POINTS[0][0]);
+        assert.ok(Math.abs(top.x - (x + width / 2) - unit * (params?.offset ?? 0)) < 1, 'corners on the shape');
         await page.mouse.move(top.x, top.y);
         await page.mouse.down();
         await page.mouse.move(top.x + 40, top.y, { steps: 4 });

@@ -5,9 +5,11 @@ import { DEFAULT_CAMERA } from "../src/model/camera.ts";
 import { dropCorner, edgeAt, putCorner } from "../src/model/corners.ts";
 import { readDocument } from "../src/model/documentJson.ts";
 import { dragHandle, type Handle, handleLabel, handlesOf } from "../src/model/handles.ts";
+import { IDENTITY, movablesOf } from "../src/model/movables.ts";
+import type { Operation } from "../src/model/operation.ts";
 import { projectionOf, type Spot } from "../src/model/projection.ts";
 import { readSchema } from "../src/model/schema.ts";
-import { toWorld, type Vector } from "../src/model/transform.ts";
+import { fromWorld, toWorld, type Vector } from "../src/model/transform.ts";
 import { random } from "./fixture.ts";
 
 const POINTS = {
@@ -27,6 +29,10 @@ const SCHEMA = readSchema({
                 params: [{ ...POINTS, default: [] }],
             },
             { type: "thick", group: "modifier", doc: "", children: "one", params: [] },
+            {
+                ...{ type: "revolve", group: "modifier", doc: "", children: "one" },
+                params: [{ name: "offset", type: "float", default: 0, doc: "" }],
+            },
         ],
     },
 });
@@ -145,4 +151,51 @@ test("the row says how many points there may be", () => {
     expect(pointsOf(dropCorner(corner(1)))).toEqual([CORNERS[0], CORNERS[2], CORNERS[3]]);
     const least = documentWith(CORNERS.slice(0, 3));
     expect(dropCorner(corner(0, least))).toEqual({ least: 3 });
+});
+
+/* What an operation sets. */
+const numbers = (op: Operation | undefined): number[] =>
+    op?.op === "set" && Array.isArray(op.value)
+        ? op.value.flat().map((part) => Number(Number(part).toFixed(3)))
+        : [];
+
+test("inside of what is revolved, corners are where the shape is", () => {
+    const scene = (offset: number) =>
+        readDocument({
+            root: {
+                ...{ id: "root", type: "revolve", params: { offset } },
+                transform: { rotation: [0, 0.5, 0], scale: 2 },
+                children: [
+                    {
+                        ...{
+                            id: "sheet",
+                            type: "sheet",
+                            params: {
+                                corners: [
+                                    [1, 0],
+                                    [2, 0],
+                                    [1, 1],
+                                ],
+                            },
+                        },
+                        transform: { translation: [0.5, 0, 0] },
+                    },
+                ],
+            },
+        });
+    const away = scene(3);
+    const [x, , z] = toWorld(away, "sheet", [1, 0, 0]);
+    expect(Math.hypot(x, z)).toBeCloseTo(2 * (1 + 0.5 + 3), 9);
+    const back = fromWorld(away, "sheet", toWorld(away, "sheet", [0.3, 0.2, 0.1]));
+    expect(back.map((part) => Number(part.toFixed(9)))).toEqual([0.3, 0.2, 0.1]);
+    /* Where the gizmo puts a node is where it is then. */
+    const [movable] = movablesOf(away, SCHEMA, ["sheet"], { kind: "nodes" });
+    const origin = movable?.origin ?? [0, 0, 0];
+    const [op] = movable?.ops({ motion: "move", by: [0, 1, 0] }, origin, IDENTITY) ?? [];
+    expect(numbers(op)).toEqual([0.5, 0.5, 0]);
+    /* A drag by the way that the picture shows. */
+    const [first] = of(away);
+    const there = PROJECTION.spotOf(toWorld(away, "sheet", [1.4, 0.3, 0])) as Spot;
+    const change = first && dragHandle(first, PROJECTION, first.spot, there, false);
+    expect(numbers(change?.op)).toEqual([1.4, 0.3, 2, 0, 1, 1]);
 });

@@ -13,7 +13,7 @@ import {
     add,
     anglesOf,
     apply,
-    fromWorld,
+    fromWorldInto,
     length,
     type Matrix,
     multiply,
@@ -98,7 +98,7 @@ function nodeMovable(document: SceneDocument, schema: Schema, id: string): Movab
     const turned = product(parent, rotation(own.rotation));
     const at = `/nodes/${id}/transform`;
     const place = (point: Vector): Operation => {
-        const inside = node.parent === null ? point : fromWorld(document, node.parent, point);
+        const inside = node.parent === null ? point : fromWorldInto(document, node.parent, point);
         return set(`${at}/translation`, tidyVector(inside));
     };
     return {

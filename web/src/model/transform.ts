@@ -127,14 +127,36 @@ export function fromParent(transform: Transform, point: Vector): Vector {
     return divide(apply(inverse, subtract(point, transform.translation)), transform.scale);
 }
 
-/* From a node's own space to the world's. */
-export function toWorld(document: SceneDocument, id: string, point: Vector): Vector {
-    return pathTo(document, id).reduceRight((p, node) => toParent(transformOf(node), p), point);
+/* The modifier that turns what is below it, moved out along X first. */
+const TURNING = "revolve";
+const NOWHERE: Vector = [0, 0, 0];
+
+/* From where the children of a node have their places to where these are in its own space. */
+function shiftOf({ type, params }: SceneNode): Vector {
+    return type === TURNING ? [Number(params.offset ?? 0), 0, 0] : NOWHERE;
 }
 
-/* From the world to a node's own space. To place a node under a new parent, ask for the parent. */
+/* From a node's own space to the world's. */
+export function toWorld(document: SceneDocument, id: string, point: Vector): Vector {
+    return pathTo(document, id).reduceRight(
+        (p, node) => toParent(transformOf(node), node.id === id ? p : add(p, shiftOf(node))),
+        point,
+    );
+}
+
+/* From the world to a node's own space. */
 export function fromWorld(document: SceneDocument, id: string, point: Vector): Vector {
-    return pathTo(document, id).reduce((p, node) => fromParent(transformOf(node), p), point);
+    return pathTo(document, id).reduce((p, node) => {
+        const own = fromParent(transformOf(node), p);
+        return node.id === id ? own : subtract(own, shiftOf(node));
+    }, point);
+}
+
+/* From the world to where a node's children have their places. */
+export function fromWorldInto(document: SceneDocument, parent: string, point: Vector): Vector {
+    const node = document.nodes.get(parent);
+    const own = fromWorld(document, parent, point);
+    return node ? subtract(own, shiftOf(node)) : own;
 }
 
 const uniform = (s: Vector): boolean => s[0] === s[1] && s[1] === s[2];
@@ -213,7 +235,7 @@ export function standingUnder(
     const turn = world ? product(transpose(rotation(world.rotation)), turnTo(up)) : null;
     const still = turn === null || isSame(turn, rotation([0, 0, 0]));
     return {
-        translation: fromWorld(document, parent, at),
+        translation: fromWorldInto(document, parent, at),
         rotation: still ? own : anglesOf(product(turn, rotation(own)), own),
     };
 }
