@@ -120,6 +120,34 @@ static void a_material_is_shown_by_a_sphere(void **state)
     cJSON_Delete(json);
 }
 
+/* What their parameters set is found by its id. */
+static void models_with_parameters_keep_ids(void **state)
+{
+    (void)state;
+    static const char model[] = "'models':{'egg':{'params':[{'name':'size','type':'float',"
+                                "'sets':'/nodes/yolk/params/radius','range':[0.1,1]}],"
+                                "'root':{'id':'white','type':'group',%s'children':["
+                                "{'id':'yolk','type':'sphere'}]}}},";
+    static const char instance[] = "'type':'model','params':{'model':'egg','size':0.7}}}";
+    char named[400], plain[400], text[700];
+    struct error err = {0};
+
+    snprintf(named, sizeof named, model, "'name':'White',");
+    snprintf(plain, sizeof plain, model, "");
+    snprintf(text, sizeof text, "{'format':'fieldcast/1',%s'root':{'id':'e',%s", named, instance);
+    struct scene *whole = json_text_valid_scene(text);
+    cJSON *json = scene_part_of_node(whole, scene_find(whole, "e"), 10);
+    char *printed = json_print(json, false);
+    snprintf(text, sizeof text, "{'format':'fieldcast/1',%s'root':{%s", plain, instance);
+    json_text_assert_equal(printed, text);
+    struct scene *part = scene_read(json, &err);
+    assert_non_null(part);
+    scene_destroy(part);
+    free(printed);
+    cJSON_Delete(json);
+    scene_destroy(whole);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -127,6 +155,7 @@ int main(void)
         cmocka_unit_test(parts_that_look_the_same_have_the_same_text),
         cmocka_unit_test(models_count_among_the_nodes),
         cmocka_unit_test(parts_are_documents),
+        cmocka_unit_test(models_with_parameters_keep_ids),
         cmocka_unit_test(a_material_is_shown_by_a_sphere),
     };
 
