@@ -15,6 +15,7 @@ static struct trial *queue(struct trials *trials, struct field_trial *asks, bool
     trial->references = 1;
     trial->late = late;
     trial->asks = asks;
+    trial->us = trials->now_us;
     while (*last) {
         last = &(*last)->next;
     }
@@ -87,18 +88,30 @@ const struct error *trial_warning(const struct trial *trial)
     return trial ? field_trial_warning(trial->asks) : &none;
 }
 
+static struct trial *find_least(const struct trials *trials)
+{
+    struct trial *least = trials->first;
+
+    for (struct trial *trial = least; trial; trial = trial->next) {
+        least = trial->us < least->us ? trial : least;
+    }
+    return least;
+}
+
 bool trials_go_on(struct trials *trials, int64_t us)
 {
-    struct trial *trial = trials->first;
+    struct trial *trial = find_least(trials);
 
     if (!trial) {
         return false;
     }
+    trials->now_us = trial->us;
+    trial->us += us;
     field_trial_go_on(trial->asks, us);
     if (!field_trial_is_over(trial->asks)) {
         return false;
     }
-    trials->first = trial->next;
+    leave(trials, trial);
     trial->next = NULL;
     return true;
 }

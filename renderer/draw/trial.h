@@ -10,11 +10,14 @@ struct trial {
     int references;
     bool late; /* the code is drawn already, with other numbers: this one only warns */
     struct field_trial *asks;
+    int64_t us;         /* that it took, as if it had had its part of the time before it came */
     struct trial *next; /* among those that are under way */
 };
-/* Those under way, in order. */
+/* Those under way, in order. The one that took the least goes on, so that none waits for the end of
+ * another. */
 struct trials {
     struct trial *first;
+    int64_t now_us; /* of the one that went on last */
 };
 
 /* Under way; NULL: the field has no code. */

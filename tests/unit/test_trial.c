@@ -75,6 +75,28 @@ static void other_numbers_are_not(void **state)
     resident_destroy(resident);
 }
 
+/* Long, and begun first; it takes ten times as long at least. */
+static void a_short_trial_does_not_wait_for_a_long_one(void **state)
+{
+    static const char many[] =
+        "{'format':'fieldcast/1','root':{'id':'root','type':'field','params':{'code':"
+        "'float sdf(vec3 p) { float d = length(p) - 0.5; for (int i = 0; i < 200; i++) { "
+        "d += 0.000001 * sin(p.x * float(i)) * cos(p.y * float(i)); } return d; }'}}}";
+    struct resident *slow = resident_create(renderer, drawing_parse(many), 1);
+    struct resident *quick = resident_create(renderer, drawing_parse(document), 1);
+    (void)state;
+
+    assert_true(renderer_is_trying(renderer));
+    while (resident_shown_revision(quick) == 0) {
+        renderer_poll(renderer, 0);
+    }
+    assert_int_equal(resident_shown_revision(slow), 0);
+    finish_trials();
+    assert_int_equal(resident_shown_revision(slow), 1);
+    resident_destroy(slow);
+    resident_destroy(quick);
+}
+
 static int start(void **state)
 {
     (void)state;
@@ -95,6 +117,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_are_tried_again),
         cmocka_unit_test(other_numbers_are_not),
+        cmocka_unit_test(a_short_trial_does_not_wait_for_a_long_one),
     };
 
     return cmocka_run_group_tests(tests, start, stop);
