@@ -2,9 +2,21 @@
 #include "patient.h"
 
 #include <semaphore.h>
+#include <stdatomic.h>
+#include <stdint.h>
 #include <sys/resource.h>
+#include <time.h>
 
-enum { PATIENT_NICE = 5 };
+enum { PATIENT_NICE = 5, NS = 1000000000, NS_OF_MS = 1000000 };
+
+static struct {
+    pthread_mutex_t lock;
+    pthread_cond_t pause;
+    atomic_bool goes_on;
+} drawing = {.lock = PTHREAD_MUTEX_INITIALIZER, .pause = PTHREAD_COND_INITIALIZER};
+
+/* Until which time of its processor clock a thread works beside drawing. */
+static _Thread_local int64_t works_until_ns;
 
 typedef void *thread_main(void *);
 
@@ -37,4 +49,51 @@ bool patient_create(pthread_t *out, thread_main *main, void *data)
     }
     sem_destroy(&start.ready);
     return there;
+}
+
+/* --- giving way --- */
+
+static struct timespec now_of(clockid_t clock)
+{
+    struct timespec now;
+
+    clock_gettime(clock, &now);
+    return now;
+}
+
+static int64_t worked_ns(void)
+{
+    const struct timespec now = now_of(CLOCK_THREAD_CPUTIME_ID);
+
+    return (int64_t)now.tv_sec * NS + now.tv_nsec;
+}
+
+void patient_draws(bool draws)
+{
+    if (atomic_load(&drawing.goes_on) == draws) {
+        return;
+    }
+    pthread_mutex_lock(&drawing.lock);
+    atomic_store(&drawing.goes_on, draws);
+    pthread_cond_broadcast(&drawing.pause);
+    pthread_mutex_unlock(&drawing.lock);
+}
+
+void patient_give_way(void)
+{
+    if (!atomic_load(&drawing.goes_on) || worked_ns() < works_until_ns) {
+        return;
+    }
+    struct timespec until = now_of(CLOCK_MONOTONIC);
+    int result = 0;
+
+    until.tv_nsec += PATIENT_WAIT_MS * NS_OF_MS;
+    until.tv_sec += until.tv_nsec / NS;
+    until.tv_nsec %= NS;
+    pthread_mutex_lock(&drawing.lock);
+    while (result == 0 && atomic_load(&drawing.goes_on)) {
+        result = pthread_cond_clockwait(&drawing.pause, &drawing.lock, CLOCK_MONOTONIC, &until);
+    }
+    pthread_mutex_unlock(&drawing.lock);
+    works_until_ns = result == 0 ? 0 : worked_ns() + PATIENT_WORK_MS * NS_OF_MS;
 }

@@ -11,4 +11,15 @@
  * there is no thread. */
 bool patient_create(pthread_t *out, void *(*main)(void *), void *data);
 
+enum {
+    PATIENT_WAIT_MS = 10, /* that a thread waits for drawing to pause, at most; */
+    PATIENT_WORK_MS = 2,  /* after that it works so long beside drawing */
+};
+
+/* The drawing thread has something to draw from now on, or nothing. */
+void patient_draws(bool draws);
+/* Called between two pieces of work of a patient thread: waits while something is drawn, so that
+ * pictures find the processors and their caches free, but goes on at times in any case. */
+void patient_give_way(void);
+
 #endif

@@ -7,6 +7,7 @@
 
 #include "crash.h"
 #include "guide.h"
+#include "patient.h"
 #include "protocol/memory.h"
 #include "worker_internal.h"
 
@@ -276,6 +277,7 @@ static enum job_state take_turn(struct worker *w, struct worker_job *job)
 void worker_step(struct worker *w, struct worker_job *job)
 {
     tell_drawing(w, job);
+    patient_draws(job != NULL);
     if (!job) {
         return;
     }

@@ -51,7 +51,7 @@ static void read_file(struct picture *picture)
     const struct asset *asset = picture->asset;
     struct decoded decoded = {0};
 
-    if (image_decode(asset->bytes, asset->length, &decoded, &picture->err)) {
+    if (image_decode(asset->bytes, asset->length, patient_give_way, &decoded, &picture->err)) {
         engine_maps_make(&any, decoded.rgba, decoded.width, decoded.height, picture->maps);
     }
 }

@@ -6,7 +6,8 @@
 
 #include "shrink.h"
 
-bool image_decode(const uint8_t *bytes, size_t length, struct decoded *out, struct error *err)
+bool image_decode(const uint8_t *bytes, size_t length, void (*between)(void), struct decoded *out,
+                  struct error *err)
 {
     struct asset_info info;
     struct shrink shrink;
@@ -16,6 +17,7 @@ bool image_decode(const uint8_t *bytes, size_t length, struct decoded *out, stru
         return false;
     }
     shrink_init(&shrink, info.width, info.height);
+    shrink.between = between;
     ok = strcmp(info.type, "image/png") == 0
              ? png_decode(bytes, length, &shrink, err)
              : hdr_decode(bytes + info.head, length - info.head, &shrink, err);

@@ -20,8 +20,10 @@ struct decoded {
                        owned */
 };
 
-/* Transparency is left out of account. Any thread. */
-bool image_decode(const uint8_t *bytes, size_t length, struct decoded *out, struct error *err);
+/* Transparency is left out of account. Any thread. `between` is called before each row, and may
+ * wait; NULL: nothing is. */
+bool image_decode(const uint8_t *bytes, size_t length, void (*between)(void), struct decoded *out,
+                  struct error *err);
 void decoded_finish(struct decoded *decoded);
 
 /* The formats. hdr_decode gets what is behind the head. */

@@ -109,6 +109,9 @@ void shrink_add(struct shrink *shrink, int y, int x, int step, int count, const 
 {
     const struct share share = share_of(y, shrink->from_height, shrink->out.height);
 
+    if (shrink->between) {
+        shrink->between();
+    }
     while (shrink->sum_rows < shrink->out.height && shrink->rows_whole < share.first) {
         end_row(shrink);
     }

@@ -9,10 +9,11 @@
 struct shrink {
     int from_width, from_height; /* of the file */
     struct decoded out;
-    float *line;    /* one row of the file, as wide as `out` */
-    float *sums;    /* of rows of `out` that are not whole yet: row y is at y % sum_rows */
-    int sum_rows;   /* two; all of them where rows come in any order */
-    int rows_whole; /* of `out` */
+    float *line;           /* one row of the file, as wide as `out` */
+    float *sums;           /* of rows of `out` that are not whole yet: row y is at y % sum_rows */
+    int sum_rows;          /* two; all of them where rows come in any order */
+    int rows_whole;        /* of `out` */
+    void (*between)(void); /* called before each row of the file; NULL: nothing is */
 };
 
 void shrink_init(struct shrink *shrink, int from_width, int from_height);

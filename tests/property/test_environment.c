@@ -114,7 +114,7 @@ static struct environment *get(const struct frame_uniforms *block, const struct 
     if (read) {
         struct decoded decoded = {0};
 
-        assert_true(image_decode(image->bytes, image->length, &decoded, NULL));
+        assert_true(image_decode(image->bytes, image->length, NULL, &decoded, NULL));
         engine_maps_make(block, decoded.rgba, decoded.width, decoded.height, maps);
     }
     environment = environments_get(environments, block, id, read ? maps : NULL, out_us);

@@ -52,7 +52,7 @@ static bool decode(const struct file *file, size_t length, struct decoded *out, 
 
     memcpy(bytes, file->bytes, length);
     *out = (struct decoded){0};
-    ok = image_decode(bytes, length, out, err);
+    ok = image_decode(bytes, length, NULL, out, err);
     free(bytes);
     return ok;
 }
@@ -407,7 +407,7 @@ static void pixels_are_averaged_by_area(void **state)
         uint8_t *bytes = large_radiance(sizes[k].width, sizes[k].height, &length, stripes);
         struct decoded decoded;
 
-        assert_true(image_decode(bytes, length, &decoded, NULL));
+        assert_true(image_decode(bytes, length, NULL, &decoded, NULL));
         assert_int_equal(decoded.width, sizes[k].out_width);
         assert_int_equal(decoded.height, sizes[k].out_height);
         for (int y = 0; y < decoded.height; y += 1 + decoded.height / 8) {
@@ -434,7 +434,7 @@ static void interlaced_averaged(void **state)
         size_t length;
         uint8_t *bytes = large_png(i == 1, &length);
 
-        assert_true(image_decode(bytes, length, &decoded[i], NULL));
+        assert_true(image_decode(bytes, length, NULL, &decoded[i], NULL));
         free(bytes);
     }
     assert_int_equal(decoded[0].width, DECODED_WIDTH);

@@ -190,7 +190,7 @@ static void check_hdr(const struct image *image)
     size_t length;
     uint8_t *bytes = encode(image, &(struct encode_params){.format = CODEC_HDR}, &length);
 
-    assert_true(image_decode(bytes, length, &decoded, NULL));
+    assert_true(image_decode(bytes, length, NULL, &decoded, NULL));
     assert_int_equal(decoded.width, image->width);
     assert_int_equal(decoded.height, image->height);
     for (int i = 0; i < image->width * image->height; i++) {
