@@ -29,6 +29,7 @@ const REPORT_LINES = 30; // shown of each test that failed
 const REPORTS = 5;
 const ORDER = ['unit', 'lint', 'cli', 'web', 'property', 'golden', 'api', 'kill', 'fault', 'e2e'];
 const ALONE = [
+    'api/hostile_load',
     'api/live',
     'api/shares',
     'api/sockets',
