@@ -29,6 +29,31 @@ test("a pole and a jump have their place", () => {
     expect(jump.words).toBe("Unsafe: jump at (0, 1, 2)");
 });
 
+test("patches have an error, holes and a thickness", () => {
+    const sampled = { quality: "sampled", patches: 1024, error: 2.34e-6 };
+    const fine = said(sampled);
+    expect(fine.words).toBe("Sampled: 1024 patches, off by 0.000002");
+    expect(fine.note).toBeUndefined();
+    const holes = said({ ...sampled, left_out: 32 });
+    expect(holes.words).toBe("Sampled: 1024 patches, off by 0.000002, 32 left out");
+    expect(holes.note).toMatch(/^32 of 1024 patches /);
+    expect(said({ ...sampled, error: 0.3, thin: true }).words).toBe(
+        "Sampled too coarsely: off by 0.3",
+    );
+    expect(
+        row({
+            ...sampled,
+            box: [
+                [-1, 0, 1],
+                [2, 3, 4],
+            ],
+        })?.box,
+    ).toEqual([
+        [-1, 0, 1],
+        [2, 3, 4],
+    ]);
+});
+
 test("nothing is said of what is unknown", () => {
     expect(row({ quality: "unknown" })).toBeNull();
     expect(row({ quality: "splendid" })).toBeNull();

@@ -6,7 +6,7 @@ import type { JsonObject } from "./json.ts";
 import { type Ground, landingTransform } from "./landing.ts";
 import { isContainer, names, placing, SOLID_MAKERS, type Way } from "./placing.ts";
 import { type NodeType, nodeType, type Schema } from "./schema.ts";
-import { NEW_EQUATION, NEW_NODE_CODE } from "./templates.ts";
+import { NEW_EQUATION, NEW_NODE_CODE, NEW_SURFACE } from "./templates.ts";
 
 /* What a palette offers: a type, or an instance of something of the document. */
 export interface Addition {
@@ -33,6 +33,9 @@ function paramsOf(row: NodeType | null, named: string | undefined): JsonObject {
         }
         if (param.type === "equation") {
             return { [param.name]: NEW_EQUATION };
+        }
+        if (param.type === "surface") {
+            return { [param.name]: NEW_SURFACE };
         }
     }
     return {};

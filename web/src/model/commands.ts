@@ -96,7 +96,7 @@ export const ABSENT: readonly Absent[] = [
     {
         words: "equation formula implicit function parametric expression math",
         title: "Equations",
-        answer: "Add the shape Implicit and type an equation in x, y and z, or find that of a parametric surface.",
+        answer: "Add the shape Implicit and type an equation in x, y and z, or the shape Parametric and type a surface in two parameters.",
     },
     {
         words: "versions checkpoint timeline",

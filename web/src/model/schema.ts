@@ -61,7 +61,7 @@ export interface Values {
 export interface Condition {
     readonly name: string;
     readonly value: Value;
-    /* It is this value, is another, or is an equation that has this letter. */
+    /* It is this value, is another, or is an equation or a surface that has this letter. */
     readonly test: "=" | "!=" | "~";
 }
 
@@ -402,10 +402,15 @@ export function valueIn(values: Values, param: Param): Value {
     return values[param.name] ?? param.default;
 }
 
+/* The names in an expression. */
+export function wordsIn(text: string): readonly string[] {
+    return text.match(/[A-Za-z_]\w*/g) ?? [];
+}
+
 function holds({ test, value }: Condition, given: Value): boolean {
     if (test === "~") {
-        const words: readonly string[] = String(given).match(/[A-Za-z_]\w*/g) ?? [];
-        return words.includes(String(value));
+        const texts = isObject(given) ? Object.values(given) : [given];
+        return wordsIn(texts.join("; ")).includes(String(value));
     }
     return (given === value) === (test === "=");
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The parametric surface that an equation was found for, and the ranges that its letters start
- * with. */
+/* The parametric surface of a node, or that an equation was found for, and the ranges that its
+ * letters start with. */
 import { isObject, type JsonObject, textOf } from "./json.ts";
+import { wordsIn } from "./schema.ts";
 
 export const PARTS = ["x", "y", "z"] as const;
 export const LETTERS = ["s", "t", "u", "v"] as const;
@@ -60,4 +61,25 @@ export function firstRange(texts: PartTexts, letter: string): SurfaceRange {
 export function surfaceValue({ texts, ranges }: Surface, letters: readonly string[]): SurfaceValue {
     const chosen = letters.map((letter) => [letter, ranges[letter] ?? firstRange(texts, letter)]);
     return { ...texts, ...Object.fromEntries(chosen) };
+}
+
+/* The two parameters: those that the texts are in, where they are in two; else as it was. */
+export function lettersOf({ texts, ranges }: Surface): readonly string[] {
+    const words = PARTS.flatMap((part) => wordsIn(texts[part]));
+    const used = LETTERS.filter((letter) => words.includes(letter));
+    const before = LETTERS.filter((letter) => letter in ranges);
+    const both = [...new Set([...used, ...before, ...LETTERS])].slice(0, 2);
+    return used.length > 2 && before.length === 2
+        ? before
+        : LETTERS.filter((letter) => both.includes(letter));
+}
+
+/* The texts with the values of the node's own letters in them: what is proved has none. */
+export function withNumbers(
+    texts: PartTexts,
+    numbers: Readonly<Record<string, number>>,
+): PartTexts {
+    const put = (text: string): string =>
+        text.replace(/[A-Za-z_]\w*/g, (word) => (word in numbers ? `(${numbers[word]})` : word));
+    return { x: put(texts.x), y: put(texts.y), z: put(texts.z) };
 }

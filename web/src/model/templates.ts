@@ -29,6 +29,15 @@ float sdf(vec3 p) {
 /* The equation of a new implicit surface. Its letter has the default 1. */
 export const NEW_EQUATION = "x^4 + y^4 + z^4 - x^2 - y^2 - z^2 + 0.4a = 0";
 
+/* A new parametric surface: a monkey saddle, whose letter has the default 1. */
+export const NEW_SURFACE: JsonObject = {
+    x: "s",
+    y: "a/2*(s^3 - 3*s*t^2)",
+    z: "t",
+    s: [-1, 1],
+    t: [-1, 1],
+};
+
 const SHADER_CODE = `// The colour of one point of the surface. It has
 //   properties.world_position, .object_position, .world_normal,
 //   .ray_direction and .ray_distance;

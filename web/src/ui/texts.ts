@@ -517,23 +517,6 @@ const texts = {
     "keys.graphPark": "A wire off its input: to the shelf",
     "keys.graphInsert": "A card onto a wire: between its ends",
 
-    "parametric.open": "From a parametric surface…",
-    "parametric.title": "Equation of a parametric surface",
-    "parametric.doc":
-        "Expressions in two of the letters s, t, u, v: polynomials and fractions. A letter may stand in sin, cos, tan alone, or in exp, sinh, cosh, tanh alone.",
-    "parametric.equation": "Equation",
-    "parametric.busy": "Looking for the equation…",
-    "parametric.found": "Degree {degree}, {terms} terms; proved to be exact.",
-    "parametric.large": "An equation of this size cannot be drawn: {why}.",
-    "parametric.take": "Use this equation",
-    "parametric.from": "{letter} from",
-    "parametric.to": "{letter} to",
-    "parametric.range": "{letter} has to end above its start.",
-    "parametric.change": "Change…",
-    "parametric.edit": "equation of a parametric surface",
-    "proof.busy": "Being checked…",
-    "proof.verified": "Verified: {reason}",
-    "proof.unverified": "Not verified: {reason}",
     "picture.title": "Download a picture",
     "picture.size": "Size",
     "picture.pixels": "Pixels",
@@ -584,7 +567,7 @@ const texts = {
 
     "examples.showpiece": "Showpieces",
     "examples.lesson": "Lessons",
-    "examples.surface": "Surfaces by an equation",
+    "examples.surface": "Surfaces by formulas",
     "examples.shape": "Shapes",
     "examples.combine": "Combining shapes",
     "examples.modify": "Changing shapes",
@@ -605,7 +588,11 @@ export function t(key: TextKey, values: Readonly<Record<string, string | number>
     const pattern: string | undefined =
         values.count === 1 && one in texts ? texts[one as TextKey] : texts[key];
     /* A word of the schema may be newer than this page. */
-    return (pattern ?? key).replace(/\{(\w+)\}/g, (_, name: string) => String(values[name] ?? ""));
+    return fillText(pattern ?? key, values);
+}
+
+export function fillText(text: string, values: Readonly<Record<string, string | number>>): string {
+    return text.replace(/\{(\w+)\}/g, (_, name: string) => String(values[name] ?? ""));
 }
 
 /* What a problem says; with the line, where it is about a text. */

@@ -20,6 +20,7 @@ import { Dialog } from "../widgets/Dialog.tsx";
 import { Select } from "../widgets/Select.tsx";
 import { Mark } from "./Mark.tsx";
 import { NumberField } from "./Number.tsx";
+import { surfaceText } from "./surfaceTexts.ts";
 import "./fields.css";
 
 /* Whitney's umbrella. */
@@ -40,7 +41,7 @@ export function FromParametric({ open, start, onTake, onClose }: Props) {
     return (
         <Dialog
             open={open}
-            title={t("parametric.title")}
+            title={surfaceText("title")}
             wide
             closeLabel={t("close")}
             onClose={onClose}
@@ -57,13 +58,13 @@ export function FromParametric({ open, start, onTake, onClose }: Props) {
     );
 }
 
-interface Answer {
+export interface Answer {
     found: Implicit | null;
     problem: RestError | null;
 }
 
 /* null: the server has not answered yet. */
-function useEquation(texts: PartTexts, method: string | null): Answer | null {
+export function useEquation(texts: PartTexts, method: string | null): Answer | null {
     const { rest } = useEditor();
     const [answer, setAnswer] = useState<Answer | null>(null);
     useEffect(() => {
@@ -115,7 +116,7 @@ function Sheet({ surface, onChange, onTake }: SheetProps) {
     return (
         <>
             <div className="parametric">
-                <p>{t("parametric.doc")}</p>
+                <p>{surfaceText("doc")}</p>
                 {PARTS.map((part) => (
                     <Part
                         key={part}
@@ -139,7 +140,7 @@ function Sheet({ surface, onChange, onTake }: SheetProps) {
                 ))}
                 <Method value={method} onChange={setMethod} />
                 {/* biome-ignore lint/a11y/noNoninteractiveTabindex: long equations scroll by keys */}
-                <output tabIndex={0} aria-label={t("parametric.equation")}>
+                <output tabIndex={0} aria-label={surfaceText("equation")}>
                     {equation}
                 </output>
             </div>
@@ -150,7 +151,7 @@ function Sheet({ surface, onChange, onTake }: SheetProps) {
                     disabled={!found?.drawable || reversed !== undefined}
                     onClick={() => onTake(equation, surfaceValue(surface, now))}
                 >
-                    {t("parametric.take")}
+                    {surfaceText("take")}
                 </Button>
             </footer>
         </>
@@ -187,30 +188,33 @@ interface RangeProps {
     letter: string;
     range: SurfaceRange;
     onChange: (range: SurfaceRange) => void;
+    /* The end of a gesture; absent: as each of its steps. */
+    onCommit?: (range: SurfaceRange) => void;
+    onCancel?: () => void;
 }
 
 const BOUND = numberParam("bound", { step: 0.1 });
 const ignore = (): void => undefined;
 
 /* [low] ≤ s ≤ [high] */
-function Range({ letter, range: [low, high], onChange }: RangeProps) {
-    const bound = (label: string, value: number, change: (value: number) => void) => (
+export function Range({ letter, range: [low, high], onChange, onCommit, onCancel }: RangeProps) {
+    const bound = (label: string, value: number, next: (value: number) => SurfaceRange) => (
         <NumberField
             param={BOUND}
             label={label}
             value={value}
             fallback={value}
-            onInput={change}
-            onCommit={change}
-            onCancel={ignore}
+            onInput={(value) => onChange(next(value))}
+            onCommit={(value) => (onCommit ?? onChange)(next(value))}
+            onCancel={onCancel ?? ignore}
             onRefuse={ignore}
         />
     );
     return (
         <div className="parametric-range">
-            {bound(t("parametric.from", { letter }), low, (value) => onChange([value, high]))}
+            {bound(surfaceText("from", { letter }), low, (value) => [value, high])}
             <span>≤ {letter} ≤</span>
-            {bound(t("parametric.to", { letter }), high, (value) => onChange([low, value]))}
+            {bound(surfaceText("to", { letter }), high, (value) => [low, value])}
         </div>
     );
 }
@@ -252,10 +256,10 @@ function Verdict({ answer, reversed }: { answer: Answer | null; reversed: string
             }
         >
             {problem !== null && `${place ? `${place}: ` : ""}${problem.message}`}
-            {found !== null && t("parametric.found", { degree: found.degree, terms: found.terms })}
-            {found?.drawable === false && ` ${t("parametric.large", { why: found.why })}`}
-            {answer === null && t("parametric.busy")}
-            {reversed !== null && ` ${t("parametric.range", { letter: reversed })}`}
+            {found !== null && surfaceText("found", { degree: found.degree, terms: found.terms })}
+            {found?.drawable === false && ` ${surfaceText("large", { why: found.why })}`}
+            {answer === null && surfaceText("busy")}
+            {reversed !== null && ` ${surfaceText("range", { letter: reversed })}`}
         </p>
     );
 }

@@ -74,8 +74,9 @@ export default function QualityBadge({ node, place }: { node: string; place: str
         return null;
     }
     const { words, doc, note } = qualityTexts(quality);
-    const state =
-        quality.quality === "unsafe" ? "unsafe" : quality.unresolved > 0 ? "unresolved" : "good";
+    const unsafe = quality.quality === "unsafe" || quality.thin;
+    const open = quality.unresolved > 0 || quality.leftOut > 0;
+    const state = unsafe ? "unsafe" : open ? "unresolved" : "good";
     const Icon = { unsafe: TriangleAlert, unresolved: CircleAlert, good: CircleCheck }[state];
     return (
         <div role="status">

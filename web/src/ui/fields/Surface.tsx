@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The parametric surface that an equation was found for. The server proves it again whenever one of
- * the two changes; the badge says what it found. */
+ * the two changes; the badge says what it found. Without an equation beside it the surface is what
+ * the node is: Patches.tsx. */
 import { CircleCheck, LoaderCircle, TriangleAlert } from "lucide-react";
 import { useEffect, useMemo, useState } from "react";
 import type { Proof } from "../../link/rest.ts";
@@ -10,9 +11,10 @@ import { multiEdit } from "../../model/multiEdit.ts";
 import type { Value } from "../../model/schema.ts";
 import { readSurface, type Surface, type SurfaceValue } from "../../model/surface.ts";
 import { useDocument, useEditor } from "../state.ts";
-import { t } from "../texts.ts";
 import { Button } from "../widgets/Button.tsx";
 import { FromParametric } from "./Parametric.tsx";
+import { PatchesField } from "./Patches.tsx";
+import { surfaceText } from "./surfaceTexts.ts";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
@@ -23,7 +25,23 @@ interface Props extends FieldProps<SurfaceValue> {
     place: string;
 }
 
-export default function SurfaceField({ label, value, place, mixed }: Props) {
+export default function SurfaceField(props: Props) {
+    const { place } = props;
+    const proved = useDocument(
+        ({ schema, document }) =>
+            document !== null && paramAt(schema, document, beside(place, "equation")) !== null,
+    );
+    const node = /^\/nodes\/([^/]+)\/params\//.exec(place)?.[1];
+    return proved || node === undefined ? (
+        <Proved {...props} />
+    ) : (
+        <PatchesField {...props} node={node} />
+    );
+}
+
+const beside = (place: string, name: string): string => place.replace(/[^/]+$/, name);
+
+function Proved({ label, value, place, mixed }: Props) {
     const { link, stores } = useEditor();
     const [open, setOpen] = useState(false);
     const surface = readSurface(value);
@@ -33,8 +51,8 @@ export default function SurfaceField({ label, value, place, mixed }: Props) {
         const set = (at: string, next: Value) =>
             document ? multiEdit(schema, document, selection, at, next) : [];
         setOpen(false);
-        link.edit([...set(place.replace(/[^/]+$/, "equation"), equation), ...set(place, found)], {
-            label: t("parametric.edit"),
+        link.edit([...set(beside(place, "equation"), equation), ...set(place, found)], {
+            label: surfaceText("edit"),
         });
     };
     return (
@@ -49,7 +67,7 @@ export default function SurfaceField({ label, value, place, mixed }: Props) {
             <div className="surface-foot">
                 {surface !== null && !mixed && <Badge place={place} />}
                 <Button className="equation-from" onClick={() => setOpen(true)}>
-                    {t(surface === null ? "parametric.open" : "parametric.change")}
+                    {surfaceText(surface === null ? "open" : "change")}
                 </Button>
             </div>
             <FromParametric
@@ -117,7 +135,7 @@ function Badge({ place }: { place: string }) {
     return (
         <p className="surface-badge" role="status" data-proof={state}>
             <Icon size={14} aria-hidden="true" />
-            <span>{t(`proof.${state}`, { reason: proof?.reason ?? "" })}</span>
+            <span>{surfaceText(`proof.${state}`, { reason: proof?.reason ?? "" })}</span>
         </p>
     );
 }

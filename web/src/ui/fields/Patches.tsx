@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: MIT */
+/* The surface of a node that is drawn as it is written: three expressions and two ranges. The
+ * picture follows what is typed. Meanwhile the server looks for the equation, which may take the
+ * surface's place in one edit. */
+import { useEffect, useMemo, useRef, useState } from "react";
+import { qualityOf } from "../../link/qualityRest.ts";
+import { paramAt } from "../../model/document.ts";
+import type { Json } from "../../model/json.ts";
+import { valueIn } from "../../model/schema.ts";
+import {
+    lettersOf,
+    PARTS,
+    type PartTexts,
+    readSurface,
+    type Surface,
+    type SurfaceRange,
+    type SurfaceValue,
+    surfaceValue,
+    withNumbers,
+} from "../../model/surface.ts";
+import { lazyPart } from "../lazy.tsx";
+import { useDocument, useEditor, useView } from "../state.ts";
+import { Button } from "../widgets/Button.tsx";
+import { Mark } from "./Mark.tsx";
+import { Range, useEquation } from "./Parametric.tsx";
+import { surfaceText } from "./surfaceTexts.ts";
+import type { FieldProps } from "./types.ts";
+import "./fields.css";
+
+/* A pause in typing after which the text is sent. */
+const SEND_MS = 250;
+const NOTHING: Surface = { texts: { x: "", y: "", z: "" }, ranges: {} };
+const OWN_LETTERS = ["a", "b", "c", "d"];
+
+const QualityBadge = lazyPart(() => import("./Quality.tsx"));
+
+interface Props extends FieldProps<SurfaceValue> {
+    place: string;
+    node: string;
+}
+
+export function PatchesField(props: Props) {
+    const { label, value, place, node, mixed, onInput, onCommit, onCancel } = props;
+    const surface = (mixed ? null : readSurface(value)) ?? NOTHING;
+    const alone = useView(({ selection }) => selection.length === 1);
+    const letters = lettersOf(surface);
+    const ranged = surfaceValue(surface, letters) as Readonly<Record<string, SurfaceRange>>;
+    const withText = (part: string, text: string): SurfaceValue => {
+        const next = { ...surface, texts: { ...surface.texts, [part]: text } };
+        return surfaceValue(next, lettersOf(next));
+    };
+    const withRange = (letter: string, range: SurfaceRange): SurfaceValue =>
+        surfaceValue({ ...surface, ranges: { ...surface.ranges, [letter]: range } }, letters);
+    return (
+        // biome-ignore lint/a11y/useSemanticElements: a fieldset brings a look and a legend of its own
+        <div className="patches" role="group" aria-label={label}>
+            {PARTS.map((part) => (
+                <PartField
+                    key={part}
+                    label={surfaceText("part", { label, part })}
+                    part={part}
+                    place={`${place}/${part}`}
+                    text={surface.texts[part]}
+                    onInput={(text) => onInput(withText(part, text))}
+                    onCommit={(text) => onCommit(withText(part, text))}
+                    onCancel={onCancel}
+                />
+            ))}
+            {letters.map((letter) => (
+                <Range
+                    key={letter}
+                    letter={letter}
+                    range={ranged[letter] ?? [0, 0]}
+                    onChange={(range) => range[0] < range[1] && onInput(withRange(letter, range))}
+                    onCommit={(range) =>
+                        range[0] < range[1] ? onCommit(withRange(letter, range)) : onCancel()
+                    }
+                    onCancel={onCancel}
+                />
+            ))}
+            {alone && <QualityBadge node={node} place={place} />}
+            {alone && readSurface(value) !== null && (
+                <Equation node={node} place={place} surface={surface} letters={letters} />
+            )}
+        </div>
+    );
+}
+
+/* --- a part --- */
+
+interface PartFieldProps {
+    label: string;
+    part: string;
+    place: string;
+    text: string;
+    onInput: (text: string) => void;
+    onCommit: (text: string) => void;
+    onCancel: () => void;
+}
+
+function PartField({ label, part, place, text, onInput, onCommit, onCancel }: PartFieldProps) {
+    const [draft, setDraft] = useState<string | null>(null);
+    const timer = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);
+    const problem = useDocument(({ problems }) => problems.get(place) ?? null);
+    const shown = draft ?? text;
+    useEffect(() => () => clearTimeout(timer.current), []);
+    const end = (take: boolean): void => {
+        clearTimeout(timer.current);
+        if (draft !== null) {
+            take ? onCommit(draft) : onCancel();
+        }
+        setDraft(null);
+    };
+    return (
+        <div className="parametric-part">
+            <span aria-hidden="true">{part} =</span>
+            <input
+                className="text-field"
+                aria-label={label}
+                value={shown}
+                spellCheck={false}
+                autoComplete="off"
+                aria-invalid={problem !== null || undefined}
+                onChange={({ target }) => {
+                    setDraft(target.value);
+                    clearTimeout(timer.current);
+                    timer.current = setTimeout(() => onInput(target.value), SEND_MS);
+                }}
+                onBlur={() => end(true)}
+                onKeyDown={(event) => {
+                    if (event.key === "Enter") {
+                        event.preventDefault();
+                        end(true);
+                    } else if (event.key === "Escape" && draft !== null) {
+                        event.stopPropagation();
+                        end(false);
+                    }
+                }}
+            />
+            {problem?.line !== undefined && (
+                <Mark text={shown} line={problem.line} column={problem.column ?? 1} />
+            )}
+        </div>
+    );
+}
+
+/* --- its equation --- */
+
+/* The texts with the values of the node's own letters. */
+function useProvable(place: string, texts: PartTexts): PartTexts {
+    const numbers = useDocument(({ schema, document }) => {
+        const values = OWN_LETTERS.map((letter) => {
+            const own = document && paramAt(schema, document, place.replace(/[^/]+$/, letter));
+            return [letter, own ? valueIn(own.values, own.param) : 1] as const;
+        });
+        return JSON.stringify(Object.fromEntries(values));
+    });
+    const { x, y, z } = texts;
+    return useMemo(() => withNumbers({ x, y, z }, JSON.parse(numbers)), [x, y, z, numbers]);
+}
+
+interface EquationProps {
+    node: string;
+    place: string;
+    surface: Surface;
+    letters: readonly string[];
+}
+
+/* What was proved and the way to it, or why there is no equation. */
+function Equation({ node, place, surface, letters }: EquationProps) {
+    const { link, rest, stores } = useEditor();
+    const texts = useProvable(place, surface.texts);
+    const answer = useEquation(texts, null);
+    const found = answer?.found ?? null;
+    const reason = answer?.problem?.message ?? (found?.drawable === false ? found.why : null);
+    const make = async (equation: string): Promise<void> => {
+        const { scene } = stores.document.getState();
+        const quality = await qualityOf(
+            rest,
+            scene ?? "",
+            node,
+            new AbortController().signal,
+        ).catch(() => null);
+        const set = (at: string, next: Json) => ({
+            op: "set" as const,
+            at: `/nodes/${node}/${at}`,
+            value: next,
+        });
+        link.edit(
+            [
+                set("type", "implicit"),
+                set("params/equation", `${equation} = 0`),
+                set("params/parametric", surfaceValue({ ...surface, texts }, letters)),
+                set("params/mode", "sheet"),
+                ...(quality ? [set("params/size", sizeAround(quality.box))] : []),
+            ],
+            { label: surfaceText("makeEdit") },
+        );
+    };
+    return (
+        <div className="patches-equation">
+            <p role="status" data-bad={reason !== null || undefined}>
+                {answer === null && surfaceText("busy")}
+                {found?.drawable === true &&
+                    surfaceText("found", { degree: found.degree, terms: found.terms })}
+                {reason !== null && surfaceText("none", { reason: sentence(reason) })}
+            </p>
+            {found?.drawable === true && (
+                <Button onClick={() => void make(found.equation)}>{surfaceText("make")}</Button>
+            )}
+        </div>
+    );
+}
+
+const sentence = (text: string): string => (/[.!?]$/.test(text) ? text : `${text}.`);
+
+/* Full lengths of a box about the origin, a little larger. */
+function sizeAround(box: readonly (readonly number[])[]): number[] {
+    return [0, 1, 2].map((i) => {
+        const most = Math.max(...box.map((corner) => Math.abs(corner[i] ?? 0)));
+        return Number((2.04 * most).toPrecision(3)) || 1;
+    });
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Parametric surfaces: their letters, the numbers that stand for a node's own, and what hangs on them.
+import { expect, test } from "vitest";
+import { matters, numberParam } from "../src/model/schema.ts";
+import { lettersOf, readSurface, type Surface, withNumbers } from "../src/model/surface.ts";
+
+const surface = (x: string, y: string, z: string, ranges = {}): Surface => ({
+    texts: { x, y, z },
+    ranges,
+});
+
+test("the parameters are the two letters of the texts", () => {
+    expect(lettersOf(surface("u*v", "u", "v^2", { s: [0, 1], t: [0, 1] }))).toEqual(["u", "v"]);
+    expect(lettersOf(surface("cos(2t)", "1", "sin(t)", { t: [0, 1], v: [0, 1] }))).toEqual([
+        "t",
+        "v",
+    ]);
+    expect(lettersOf(surface("1", "2", "3"))).toEqual(["s", "t"]);
+    /* Three: as it was. */
+    expect(lettersOf(surface("s*t*u", "2", "3", { s: [0, 1], t: [0, 1] }))).toEqual(["s", "t"]);
+});
+
+test("a node's own letters become numbers, and no others", () => {
+    const texts = withNumbers({ x: "2a*cos(t)", y: "abs(a - b)", z: "a1 + s" }, { a: -0.5, b: 2 });
+    expect(texts).toEqual({ x: "2(-0.5)*cos(t)", y: "abs((-0.5) - (2))", z: "a1 + s" });
+});
+
+test("a letter matters where a part has it", () => {
+    const rows = [
+        numberParam("a", { when: { name: "surface", value: "a", test: "~" } }),
+        { ...numberParam("surface", {}), type: "surface" as const, default: {} },
+    ];
+    const [row] = rows;
+    const values = (x: string) => ({ surface: { x, y: "s", z: "t" } });
+    expect(row && matters(rows, values("2a*s"), row)).toBe(true);
+    expect(row && matters(rows, values("abs(s)"), row)).toBe(false);
+    expect(row && matters(rows, {}, row)).toBe(false);
+    expect(readSurface({})).toBeNull();
+});
