@@ -92,7 +92,7 @@ static void examples_of_the_readme(void **state)
     free(readme);
 }
 
-enum { EXAMPLES = 68 };
+enum { EXAMPLES = 72 };
 
 static void example_scenes(void **state)
 {
