@@ -215,7 +215,6 @@ static const struct {
     {"surface-schwarz-d", SURFACE},
     {"surface-gyroid", SURFACE},
     {"surface-blobs", SURFACE},
-    {"surface-teapot", SURFACE},
     {"surface-bottle", SURFACE},
     {"surface-shell", SURFACE},
     {"surface-helicoid", SURFACE},
