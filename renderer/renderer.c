@@ -162,6 +162,7 @@ struct renderer_counters renderer_counters(const struct renderer *renderer)
     counters.compilations =
         program_cache_compilations(renderer->programs) + draw_compilations(renderer->draw);
     counters.rays = draw_rays(renderer->draw);
+    counters.pixels = draw_pixels(renderer->draw);
     return counters;
 }
 

@@ -76,7 +76,8 @@ struct renderer_counters {
     uint64_t compilations; /* programs compiled and linked since the start */
     uint64_t cache_hits;   /* scenes whose structure was there already */
     uint64_t tiles, pictures;
-    uint64_t rays; /* reflected and refracted ones */
+    uint64_t rays;   /* reflected and refracted ones */
+    uint64_t pixels; /* drawn by the engine, and not copied from the last picture */
 };
 struct renderer_counters renderer_counters(const struct renderer *renderer);
 /* Drops what pictures keep for the next ones of their field: benchmarks draw each as the first. */

@@ -119,6 +119,11 @@ uint64_t draw_rays(const struct draw *draw)
     return together;
 }
 
+uint64_t draw_pixels(const struct draw *draw)
+{
+    return draw->pixels;
+}
+
 /* --- a picture --- */
 
 int draw_margin(const struct render_settings *settings)

@@ -106,6 +106,8 @@ uint64_t draw_compilations(const struct draw *draw);
 void draw_forget(struct draw *draw);
 /* Reflected and refracted rays that were started. */
 uint64_t draw_rays(const struct draw *draw);
+/* Pixels that the engine has drawn, and not copied. */
+uint64_t draw_pixels(const struct draw *draw);
 
 /* `formats`: for each output NULL or its format. */
 bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_uniforms *block,

@@ -49,6 +49,7 @@ static bool begin(struct draw *draw, struct draw_picture *picture, const struct 
             .params = scene->values,
             .frame = picture->block,
             .maps = {&maps[0], &maps[1], &maps[2]},
+            .surroundings = scene->environment->key,
             .smoothing = smoothing_of(settings),
             .margin = draw_margin(settings),
             .rays = settings->rays,
@@ -125,8 +126,10 @@ static bool draw_samples(struct draw *draw, struct draw_picture *picture,
             outputs[count++] = make_output(slot, picture->formats[i]);
         }
     }
-    draw->more_rays +=
+    const struct engine_drawn drawn =
         engine_draw(picture->canvas, tile, picture->from, picture->until, outputs, count);
+    draw->more_rays += drawn.rays;
+    draw->pixels += drawn.pixels;
     memset(slot->stage_us, 0, sizeof slot->stage_us);
     slot->stage_us[FRAME_SHADE] = draw_now_us() - start;
     return true;

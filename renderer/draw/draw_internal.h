@@ -19,6 +19,7 @@ struct draw {
     uint64_t compilations;
     uint64_t rays[DRAW_SETS]; /* by compute shaders */
     uint64_t more_rays;       /* by others */
+    uint64_t pixels;          /* by the engine, and not copied */
     struct engine_cubes *cubes;
 };
 

@@ -15,9 +15,11 @@ struct engine_canvas *engine_canvas_create(struct engine_cubes *cubes,
 
     canvas->picture = *picture;
     canvas->keeper = cubes;
-    canvas->cubes =
-        cubes_take(cubes, picture->program, picture->params, &canvas->numbers, &canvas->number);
     canvas->picture.sparse &= picture->program->count <= SPARSE_OPERATIONS;
+    canvas->cubes = cubes_take(cubes, &canvas->picture, &canvas->number);
+    /* While the camera moves, nobody needs to know what pictures are made of. */
+    canvas->seeks = !picture->sparse || canvas->cubes->renewed ||
+                    seen_has(&canvas->cubes->seen, &canvas->picture);
     return canvas;
 }
 
@@ -34,6 +36,7 @@ void cells_finish(struct cells spaces[ENGINE_SPACES])
 {
     for (int i = 0; i < ENGINE_SPACES; i++) {
         free(spaces[i].at);
+        free(spaces[i].news);
         free(spaces[i].tapes);
         free(spaces[i].drops);
     }
@@ -47,16 +50,27 @@ void engine_canvas_destroy(struct engine_canvas *canvas)
     for (int i = 0; i < ENGINE_THREADS; i++) {
         canvas->picture.program->width->hand_destroy(canvas->hands[i]);
     }
-    cubes_give(canvas->keeper, canvas->picture.program, canvas->numbers, canvas->cubes);
+    cubes_give(canvas->keeper, canvas->picture.program, canvas->cubes);
     free(canvas->pixels);
     free(canvas->counted);
     free(canvas);
 }
 
-uint64_t engine_draw(struct engine_canvas *canvas, struct engine_rect tile, int from, int until,
-                     const struct engine_output *outputs, size_t count)
+/* What is kept between rounds is of all samples, and is drawn. */
+static bool is_whole(const struct engine_canvas *canvas, const struct engine_work *work)
+{
+    return canvas->kept.width == 0 && work->from == 0 &&
+           work->until == canvas->picture.frame->samples;
+}
+
+struct engine_drawn engine_draw(struct engine_canvas *canvas, struct engine_rect tile, int from,
+                                int until, const struct engine_output *outputs, size_t count)
 {
     const struct engine_work work = {tile, from, until, outputs, count};
 
+    if (canvas->seeks && is_whole(canvas, &work)) {
+        canvas->seen = seen_open(&canvas->cubes->seen, &canvas->picture, outputs, count);
+    }
+    canvas->seeks = false;
     return canvas->picture.program->width->draw(canvas, &work);
 }

@@ -4,18 +4,20 @@
  * leaves out changes no bit of the field in the cube, so cubes may be any, and each thread has its
  * own. Cubes are those of a grid, by whose whole numbers they are found. */
 
-#define LOOSE 1.1f            /* of its half: the points of a vector need not be in one cube */
-#define CELL_PIXELS 4         /* half of the smallest, in footprints */
-#define CELL_NEAR 0.15f       /* half of the smallest, as a part of the distance to a surface */
-#define CELL_SHORT 3          /* such a tape is not made shorter */
-#define CELL_RUN 4            /* operations that take as long as it does to begin a tape */
-#define WORN_USES 4           /* a cube whose tape was used so often has smaller ones, */
-#define WORN_TAPE 24          /* if it is as long as this */
-#define CELL_LIMIT (1 << 18)  /* with more cubes, */
-#define TAPES_LIMIT (1 << 26) /* or words of tapes, of all threads, these are made anew */
-#define BOUND_NEAR 2          /* a cube is far from surfaces that are so many of its halves away */
-#define BOUND_TAPE 96         /* operations that take longer than more steps by a bound */
-#define GRID_BITS 24          /* of the root's side: as many as a float has */
+#define LOOSE 1.1f             /* of its half: the points of a vector need not be in one cube */
+#define CELL_PIXELS 4          /* half of the smallest, in footprints */
+#define CELL_NEAR 0.15f        /* half of the smallest, as a part of the distance to a surface */
+#define CELL_SHORT 3           /* such a tape is not made shorter */
+#define CELL_RUN 4             /* operations that take as long as it does to begin a tape */
+#define WORN_USES 4            /* a cube whose tape was used so often has smaller ones, */
+#define WORN_TAPE 24           /* if it is as long as this */
+#define CELL_LIMIT (1 << 18)   /* with more cubes, */
+#define TAPES_LIMIT (1 << 26)  /* or words of tapes, of all threads, these are made anew */
+#define WASTED_LIMIT (1 << 21) /* words of tapes that are not used, which are let be */
+#define BOUND_NEAR 2           /* a cube is far from surfaces that are so many of its halves away */
+#define BOUND_TAPE 96          /* operations that take longer than more steps by a bound */
+#define VALUE_TAPE 12          /* of so many operations, what a tape gives is noted */
+#define GRID_BITS 24           /* of the root's side: as many as a float has */
 /* Where 0, 0, 0 is on the grid: a third of the way along each axis, and so a third or two thirds of
  * the way through each cube around it. In the middle of the grid, a scene would lie in eight cubes
  * of every size. */
@@ -26,7 +28,9 @@ static struct cell *cell_add(struct cells *cells)
     if (cells->count == cells->capacity) {
         cells->capacity = cells->capacity ? 2 * cells->capacity : 1024;
         cells->at = memory_resize(cells->at, cells->capacity, sizeof *cells->at);
+        cells->news = memory_resize(cells->news, cells->capacity, sizeof *cells->news);
     }
+    cells->news[cells->count] = (struct cell_news){0, 0};
     return &cells->at[cells->count++];
 }
 
@@ -78,7 +82,8 @@ static void cells_begin(struct lanes *c)
         return;
     }
     cells->count = 0;
-    cells->used = cells->drops_used = 0;
+    cells->used = cells->drops_used = cells->wasted = 0;
+    cells->times++;
     tape_room(cells, c->program->count);
     for (size_t i = 0; i < c->program->count; i++) {
         cells->tapes[cells->used++] = (uint32_t)i;
@@ -226,12 +231,40 @@ static vb choose_space(struct lanes *c, vb m, int lane)
     return m;
 }
 
-/* `mask`: of the lanes that ask. */
-static void cell_split(struct lanes *c, int32_t index, float mask)
+/* What each child can leave out, and the distances in their middles. `mask`: of who asks. */
+static void look_at_children(struct lanes *c, int32_t index, float mask)
 {
     struct machine *const v = c->machine;
     const vf asked = c->field_mask_0;
     const vb estimates = c->field_estimates_0;
+    const struct cell parent = c->cells->at[index];
+
+    c->field_mask_0 = vf_all(mask);
+    c->field_estimates_0 = vb_all(false);
+    for (int first = 0; first < 8; first += LANES) {
+        vf centre[3] = {0};
+        for (int k = 0; k < LANES; k++) {
+            for (int i = 0; i < 3; i++) {
+                centre[i][k] = c->cells->at[parent.children + first + (k & 7)].centre[i];
+            }
+        }
+        machine_of(v, c, vb_all(true), centre);
+        v->drops = c->cells->drops + parent.drops;
+        v->child = first;
+        v->dropping = 0;
+        v->radius = LOOSE * 0.5f * parent.half * 1.7320508f;
+        run(v, c->cells->tapes + parent.tape, parent.count);
+        c->cells->at[index].dropping |= v->dropping;
+        for (int k = 0; k < LANES && first + k < 8; k++) {
+            c->cells->at[parent.children + first + k].distance = v->d[0][k];
+        }
+    }
+    c->field_mask_0 = asked;
+    c->field_estimates_0 = estimates;
+}
+
+static void cell_split(struct lanes *c, int32_t index, float mask)
+{
     const int32_t children = (int32_t)c->cells->count;
     const struct cell parent = c->cells->at[index];
     const float half = 0.5f * parent.half;
@@ -251,29 +284,9 @@ static void cell_split(struct lanes *c, int32_t index, float mask)
             child->centre[i] = parent.centre[i] + (upper ? half : -half);
             child->corner[i] = parent.corner[i] + (upper << bits);
         }
+        c->cells->news[children + k] = c->cells->news[index]; /* it may be other than before that */
     }
-    c->field_mask_0 = vf_all(mask);
-    c->field_estimates_0 = vb_all(false);
-    for (int first = 0; first < 8; first += LANES) {
-        vf centre[3] = {0};
-        for (int k = 0; k < LANES; k++) {
-            for (int i = 0; i < 3; i++) {
-                centre[i][k] = c->cells->at[children + first + (k & 7)].centre[i];
-            }
-        }
-        machine_of(v, c, vb_all(true), centre);
-        v->drops = c->cells->drops + c->cells->at[index].drops;
-        v->child = first;
-        v->dropping = 0;
-        v->radius = LOOSE * half * 1.7320508f;
-        run(v, c->cells->tapes + parent.tape, parent.count);
-        c->cells->at[index].dropping |= v->dropping;
-        for (int k = 0; k < LANES && first + k < 8; k++) {
-            c->cells->at[children + first + k].distance = v->d[0][k];
-        }
-    }
-    c->field_mask_0 = asked;
-    c->field_estimates_0 = estimates;
+    look_at_children(c, index, mask);
 }
 
 /* Whether smaller cubes would be worth it. */
@@ -388,6 +401,75 @@ static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, int lane, 
     return &cells->at[best];
 }
 
+/* --- what pixels are made of --- */
+
+/* A cube is listed where a part of the picture uses it for the first time. */
+static struct cell *note(struct lanes *c, int32_t at)
+{
+    struct cell *cell = &c->cells->at[at];
+
+    if (cell->part != c->noted->part) {
+        cell->part = c->noted->part;
+        cell->run = cell->found = 0;
+        noted_add(c->noted, (uint32_t)(c->cells - c->spaces), (uint32_t)at);
+    }
+    return cell;
+}
+
+/* The smallest cube that there is around a point of a lane, from one on. */
+static int32_t smallest_around(struct lanes *c, int32_t at, const struct spots *s, int lane)
+{
+    while (s->in[lane] && cell_has(&c->cells->at[at], s, lane) && c->cells->at[at].children) {
+        at = child_at(c, at, s, lane);
+    }
+    return at;
+}
+
+/* The tape of each cube around a point gives the same there. So the smallest stands for a larger
+ * one, which lanes share: it depends on less. */
+static void note_run(struct lanes *c, const struct cell *run, vb m, const vf *p)
+{
+    const int32_t at = (int32_t)(run - c->cells->at);
+
+    if (!run->children) {
+        note(c, at)->run |= c->noted->squares;
+        return;
+    }
+    const struct spots spots = spots_of(c->cells, p);
+    for (int lane = 0; lane < LANES; lane++) {
+        const int32_t least = m[lane] ? smallest_around(c, at, &spots, lane) : at;
+        if (m[lane]) {
+            cell_ready(c, least);
+            note(c, least)->run |= c->noted->squares;
+        }
+    }
+}
+
+/* A long tape has operations that matter elsewhere in the cube alone. What it gave is noted
+ * instead, and asked for again after an edit. */
+static void note_value(struct lanes *c, const struct cell *run, vb m, const vf *p, vf d)
+{
+    struct noted *noted = c->noted;
+
+    if (run->count < VALUE_TAPE || noted->value_bytes > NOTED_VALUES) {
+        note_run(c, run, m, p);
+        return;
+    }
+    struct noted_value *value = noted_value_add(noted, lanes_count(m));
+    value->cube = noted_word((uint32_t)(c->cells - c->spaces), (uint32_t)(run - c->cells->at));
+    value->squares = noted->squares;
+    value->mask = c->frame->has_transmissive ? c->field_mask_0[lanes_first(m)] : 0.0f;
+    float(*to)[4] = value->points;
+    for (int i = 0; i < LANES; i++) {
+        if (m[i]) {
+            (*to)[0] = p[0][i];
+            (*to)[1] = p[1][i];
+            (*to)[2] = p[2][i];
+            (*to++)[3] = d[i];
+        }
+    }
+}
+
 /* If a cube is far from all surfaces, its children are. */
 static bool cell_is_far(const struct cell *cell)
 {
@@ -431,5 +513,8 @@ static const struct cell *bound_at(struct lanes *c, const struct spots *s, int l
         at = child_at(c, at, s, lane);
     }
     cells->last = at;
+    if (c->noted) {
+        note(c, at)->found |= c->noted->squares;
+    }
     return &cells->at[at];
 }

@@ -6,13 +6,13 @@
 
 #include "protocol/memory.h"
 
-#define KEPT_BYTES ((size_t)256 << 20) /* of all that are kept */
-enum { KEPT = 4 };                     /* fields at most */
+enum { KEPT = 4 }; /* at most */
+/* Where more operations than so many, and a part of all, have changed, new cubes cost less. */
+enum { RENEWED_LEAST = 16, RENEWED_PART = 4 };
 
 struct kept {
     struct cubes *cubes;            /* NULL: nothing is here */
     struct engine_program *program; /* counted */
-    uint64_t numbers;
     size_t bytes;
 };
 
@@ -30,6 +30,11 @@ static void cubes_destroy(struct cubes *cubes)
 {
     for (int i = 0; cubes && i < ENGINE_THREADS; i++) {
         cells_finish(cubes->of[i]);
+        noted_finish(&cubes->noted[i]);
+    }
+    if (cubes) {
+        seen_finish(&cubes->seen);
+        free(cubes->params);
     }
     free(cubes);
 }
@@ -56,69 +61,113 @@ void engine_cubes_destroy(struct engine_cubes *cubes)
     }
 }
 
-/* From one vec4 of the numbers to before another. */
-static uint64_t hash_span(uint64_t hash, const float *params, size_t from, size_t end)
+/* --- numbers --- */
+
+static size_t numbers_bytes(const struct engine_program *program)
 {
-    for (size_t i = 2 * from; i < 2 * end; i++) {
-        uint64_t pair;
-        memcpy(&pair, params + 2 * i, sizeof pair);
-        hash = (hash ^ pair) * UINT64_C(0x9e3779b97f4a7c15);
-        hash ^= hash >> 32;
+    return 4 * program->field->vec4_count * sizeof(float);
+}
+
+/* To other numbers of the same program, where few operations have others. */
+static bool change(struct cubes *cubes, struct engine_program *program, const float *params)
+{
+    struct material_set materials = {{0}};
+    uint8_t *changed = changes_of_operations(program, cubes->params, params);
+    size_t count = 0;
+
+    for (size_t i = 0; changed && i < program->count; i++) {
+        count += changed[i];
     }
-    return hash;
+    if (!changed || count > RENEWED_LEAST + program->count / RENEWED_PART) {
+        free(changed);
+        return false;
+    }
+    cubes->edit++;
+    changes_of_materials(program, cubes->params, params, &materials);
+    seen_repaint(&cubes->seen, &materials);
+    if (count > 0) {
+        program->width->renew(program, cubes, params, changed);
+    }
+    free(changed);
+    memcpy(cubes->params, params, numbers_bytes(program));
+    return true;
 }
 
-/* Of the numbers of shapes and operations, and of lists of points, which lie behind the materials:
- * these change no distance. Others have another hash but for one time in 2^64. */
-static uint64_t hash_of(const struct engine_program *program, const float *params)
-{
-    const struct field *field = program->field;
-    const size_t materials = (field->material_count + 2) * field->material_stride;
-    const uint64_t hash = hash_span(field->vec4_count, params, 0, field->material_base);
+/* --- those that are kept --- */
 
-    return hash_span(hash, params, field->material_base + materials, field->vec4_count);
+static bool is_same(const struct kept *one, const float *params)
+{
+    return memcmp(one->cubes->params, params, numbers_bytes(one->program)) == 0;
 }
 
-struct cubes *cubes_take(struct engine_cubes *kept, const struct engine_program *program,
-                         const float *params, uint64_t *out_numbers, uint32_t *out_picture)
+/* How much of a picture is known: less with each condition that fails. */
+static int value_of(const struct kept *one, const struct engine_picture *picture)
 {
-    *out_numbers = hash_of(program, params);
+    return one->program != picture->program
+               ? 0
+               : 1 + is_same(one, picture->params) + 2 * seen_has(&one->cubes->seen, picture);
+}
+
+static struct cubes *create(const struct engine_picture *picture)
+{
+    struct cubes *cubes = memory_alloc(1, sizeof *cubes);
+
+    cubes->params = memory_alloc(numbers_bytes(picture->program), 1);
+    memcpy(cubes->params, picture->params, numbers_bytes(picture->program));
+    return cubes;
+}
+
+struct cubes *cubes_take(struct engine_cubes *kept, const struct engine_picture *picture,
+                         uint32_t *out_picture)
+{
+    struct kept *best = NULL;
+    int most = 0;
+
     *out_picture = ++kept->pictures;
     for (int i = 0; i < KEPT; i++) {
-        struct kept *one = &kept->kept[i];
-        if (one->program == program && one->numbers == *out_numbers) {
-            struct cubes *cubes = one->cubes;
-            one->cubes = NULL;
-            drop(one);
-            return cubes;
+        const int value = value_of(&kept->kept[i], picture);
+        if (value > most) {
+            best = &kept->kept[i];
+            most = value;
         }
     }
-    return memory_alloc(1, sizeof(struct cubes));
+    const uint32_t edit = best ? best->cubes->edit : 0;
+    if (!best || !(is_same(best, picture->params) ||
+                   change(best->cubes, picture->program, picture->params))) {
+        return create(picture);
+    }
+    struct cubes *cubes = best->cubes;
+    cubes->renewed = cubes->edit != edit;
+    best->cubes = NULL;
+    drop(best);
+    return cubes;
 }
 
-static size_t bytes_of(const struct cubes *cubes)
+static size_t bytes_of(const struct cubes *cubes, const struct engine_program *program)
 {
-    size_t bytes = 0;
+    size_t bytes = numbers_bytes(program) + seen_bytes(&cubes->seen);
 
+    for (int i = 0; i < ENGINE_THREADS; i++) {
+        bytes += noted_bytes(&cubes->noted[i]);
+    }
     for (int i = 0; i < ENGINE_THREADS * ENGINE_SPACES; i++) {
         const struct cells *cells = &cubes->of[i / ENGINE_SPACES][i % ENGINE_SPACES];
-        bytes += cells->capacity * sizeof *cells->at + cells->room * sizeof *cells->tapes +
-                 cells->drops_room * sizeof *cells->drops;
+        bytes += cells->capacity * (sizeof *cells->at + sizeof *cells->news) +
+                 cells->room * sizeof *cells->tapes + cells->drops_room * sizeof *cells->drops;
     }
     return bytes;
 }
 
-void cubes_give(struct engine_cubes *kept, struct engine_program *program, uint64_t numbers,
-                struct cubes *cubes)
+void cubes_give(struct engine_cubes *kept, struct engine_program *program, struct cubes *cubes)
 {
     size_t bytes = 0;
 
     drop(&kept->kept[KEPT - 1]);
     memmove(&kept->kept[1], &kept->kept[0], (KEPT - 1) * sizeof kept->kept[0]);
-    kept->kept[0] = (struct kept){cubes, engine_program_ref(program), numbers, bytes_of(cubes)};
+    kept->kept[0] = (struct kept){cubes, engine_program_ref(program), bytes_of(cubes, program)};
     for (int i = 0; i < KEPT; i++) {
         bytes += kept->kept[i].bytes;
-        if (bytes > KEPT_BYTES) {
+        if (bytes > LIMIT_CUBES_BYTES) {
             drop(&kept->kept[i]);
         }
     }

@@ -57,6 +57,7 @@ struct engine_picture {
     const float *params; /* of the field; it may be another of the same shape */
     const struct frame_uniforms *frame;
     const struct engine_map *maps[ENGINE_MAPS];
+    uint64_t surroundings; /* what tells these maps from others */
     enum engine_smoothing smoothing;
     int margin;             /* pixels around a tile that are drawn too, ENGINE_MARGIN at most */
     int rays;               /* of a sample after the first */
@@ -65,8 +66,7 @@ struct engine_picture {
     bool sparse;            /* one sample, of fewer pixels where that pays; light alone */
 };
 
-/* What pictures keep for the next of the same field and numbers. Of one thread; it outlives its
- * canvases. */
+/* What pictures keep for the next of the same field. Of one thread; it outlives its canvases. */
 struct engine_cubes;
 struct engine_cubes *engine_cubes_create(void);
 void engine_cubes_forget(struct engine_cubes *cubes);
@@ -89,6 +89,11 @@ struct engine_rect {
     int x, y, width, height;
 };
 
+struct engine_drawn {
+    uint64_t rays;   /* reflected and refracted ones, that were followed */
+    uint64_t pixels; /* of the tile, that were drawn and not copied */
+};
+
 /* `picture` is copied; what it points to stays until the canvas is destroyed. */
 struct engine_canvas *engine_canvas_create(struct engine_cubes *cubes,
                                            const struct engine_picture *picture);
@@ -99,8 +104,8 @@ void engine_canvas_destroy(struct engine_canvas *canvas);
 
 /* Draws samples `from` to `until` of a tile; those before `from` are kept ones. Where `from` is not
  * 0 and few pixels are sampled, these are those that had all samples before. One call for a canvas
- * at a time. Answers how many reflected and refracted rays it followed. */
-uint64_t engine_draw(struct engine_canvas *canvas, struct engine_rect tile, int from, int until,
-                     const struct engine_output *outputs, size_t count);
+ * at a time. Pixels that are known to be those of the last picture are copied from there. */
+struct engine_drawn engine_draw(struct engine_canvas *canvas, struct engine_rect tile, int from,
+                                int until, const struct engine_output *outputs, size_t count);
 
 #endif

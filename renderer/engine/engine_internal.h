@@ -10,6 +10,11 @@
 #include "renderer/code/machine.h"
 #include "renderer/field/shader.h"
 
+struct cubes;
+struct extent;
+struct noted;
+struct seen_picture;
+
 /* What runs operations of a kind; a field has few kinds. */
 struct operation_kind {
     uint8_t op; /* enum field_op */
@@ -53,14 +58,26 @@ struct cell {
     uint32_t tape, count;     /* among the tapes */
     uint32_t drops;           /* what its children's tapes leave out, for each word of its own */
     uint32_t picture;         /* that `splits` is for: it depends on the camera */
+    /* Which squares of a part of a picture have used it (tile.c), a bit for each: by running its
+     * tape, or as what bound_at() found. */
+    uint32_t part;
+    uint16_t run, found;
+};
+
+/* When what is used of a cube was last changed, in edits (renew.c). */
+struct cell_news {
+    uint32_t run;   /* its tape, or a number of an operation in it */
+    uint32_t found; /* what bound_at() answers there */
 };
 
 struct cells {
     float grid; /* units of the grid in one of length, a power of two */
     struct cell *at;
+    struct cell_news *news; /* of each */
+    uint32_t times;         /* that all were made anew */
     size_t count, capacity;
     uint32_t *tapes;
-    size_t used, room;
+    size_t used, room, wasted; /* words; those of tapes that were made again */
     uint16_t *drops;
     size_t drops_used, drops_room;
     int32_t last; /* that was asked for */
@@ -96,6 +113,7 @@ struct engine_program {
     const struct engine_width *width;
     struct operation *operations;
     size_t count;
+    struct extent *extents; /* of each operation's numbers: changes.h */
     struct operation_kind *kinds;
     size_t kind_count, kind_room;
     struct {
@@ -132,11 +150,20 @@ struct engine_canvas {
     struct engine_picture picture;
     struct engine_cubes *keeper; /* has the cubes before and after this picture */
     struct cubes *cubes;
-    uint64_t numbers;                   /* the name that the keeper has for the field's */
     uint32_t number;                    /* of the picture, above 0 */
+    struct seen_picture *seen;          /* what is known of the last such picture; NULL: nothing */
+    bool seeks;                         /* that was not looked for yet */
+    bool verified;                      /* which of its squares are right is known */
     struct hand *hands[ENGINE_THREADS]; /* each is made when it is first needed */
     struct engine_rect kept;            /* width 0: nothing is */
     float *pixels, *counted; /* sums of the kept: four and two for each (glsl/sums.glsl) */
+};
+
+/* Of a tile, that a thread draws at once. */
+struct engine_part {
+    struct engine_rect rect;
+    int thread; /* that has its cubes; -1: any */
+    bool taken;
 };
 
 /* One call of engine_draw. */
@@ -153,7 +180,11 @@ struct engine_width {
     size_t kernel_count;
     const struct call_row *calls;
     size_t call_count;
-    uint64_t (*draw)(struct engine_canvas *canvas, const struct engine_work *work);
+    struct engine_drawn (*draw)(struct engine_canvas *canvas, const struct engine_work *work);
+    /* Cubes for other numbers of the field. `changed`: of each operation, whether any of its own
+     * did (changes.h). */
+    void (*renew)(struct engine_program *program, struct cubes *cubes, const float *params,
+                  const uint8_t *changed);
     void (*hand_destroy)(struct hand *hand); /* NULL is nothing */
     uint64_t (*distances)(const struct engine_program *program, const float *params,
                           const float (*points)[3], size_t count, float half, float *out);
@@ -183,8 +214,9 @@ struct dispatch_block {
     const float *params, *own;                                                                     \
     struct lanes_tile tile;                                                                        \
     struct cells *spaces, *cells;                                                                  \
-    uint32_t picture; /* its number */                                                             \
-    int threads;      /* that have cells */                                                        \
+    uint32_t picture;    /* its number */                                                          \
+    struct noted *noted; /* what pixels are made of; NULL: nobody asks */                          \
+    int threads;         /* that have cells */                                                     \
     struct machine *machine;                                                                       \
     vf **frames;
 

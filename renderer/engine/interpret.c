@@ -4,6 +4,7 @@
 
 #include "engine_internal.h"
 #include "protocol/memory.h"
+#include "seen.h"
 
 /* --- the field --- */
 
@@ -306,16 +307,26 @@ static struct machine *machine_of(struct machine *v, struct lanes *c, vb m, cons
 
 #include "cells.c"
 
+static vf run_in(struct lanes *c, const struct cell *cell, vb m, const vf *p)
+{
+    struct machine *const v = machine_of(c->machine, c, m, p);
+
+    run(v, c->cells->tapes + cell->tape, cell->count);
+    const vf d = v->d[0];
+    if (c->noted) {
+        note_value(c, cell, m, p, d);
+    }
+    return d;
+}
+
 static vf spmd_map(struct lanes *c, vb m, const vf *p)
 {
-    struct machine *const v = c->machine;
     vf d = vf_zero;
 
     while (lanes_any(m)) {
         vb held;
         const struct cell *cell = cell_at(c, m, p, lanes_first(m), &held);
-        run(machine_of(v, c, held, p), c->cells->tapes + cell->tape, cell->count);
-        d = vf_select(held, v->d[0], d);
+        d = vf_select(held, run_in(c, cell, held, p), d);
         m &= ~held;
     }
     return d;
@@ -332,12 +343,10 @@ static int nearest_lane(vb m, vf distance)
  * tapes from there. */
 static vf turn(struct lanes *c, vb m, const vf *p, vf distance, vf d)
 {
-    struct machine *const v = c->machine;
     vb held;
     const struct cell *cell = cell_at(c, m, p, nearest_lane(m, distance), &held);
 
-    run(machine_of(v, c, held, p), c->cells->tapes + cell->tape, cell->count);
-    return vf_select(held, v->d[0], d);
+    return vf_select(held, run_in(c, cell, held, p), d);
 }
 
 static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, vf distance, bool exact)
@@ -369,6 +378,24 @@ static vb spmd_field_waits(struct lanes *c, vb m, vf d)
     return m & (d == WAITING);
 }
 
+enum { MIXTURE_SLOTS = 3, MIXTURE_MATERIALS = 4 }; /* of a Mixture: glsl/mixture.glsl */
+
+static void note_materials(struct lanes *c, vb m, const vf *mixture)
+{
+    struct material_set set = {{0}};
+
+    for (int k = MIXTURE_SLOTS; k < MIXTURE_SLOTS + MIXTURE_MATERIALS; k++) {
+        for (int i = 0; i < LANES; i++) {
+            material_set_add(&set, m[i] ? (unsigned)mixture[k][i] : 0);
+        }
+    }
+    for (int i = 0; i < SQUARES * SQUARES; i++) {
+        for (int k = 0; k < MATERIAL_SET / 64 && (c->noted->squares >> i & 1); k++) {
+            c->noted->materials[i].bits[k] |= set.bits[k];
+        }
+    }
+}
+
 static void spmd_surface(struct lanes *c, vb m, const vf *p, const vf *at, vf *out)
 {
     struct machine *const v = c->machine;
@@ -381,7 +408,13 @@ static void spmd_surface(struct lanes *c, vb m, const vf *p, const vf *at, vf *o
         machine_of(v, c, held, p)->mixtures = v->room;
         run(v, c->cells->tapes + cell->tape, cell->count);
         select_all(held, v->room[0], whole, MIXTURE);
+        if (c->noted) {
+            note_run(c, cell, held, p);
+        }
         left &= ~held;
+    }
+    if (c->noted) {
+        note_materials(c, m, whole);
     }
     spmd_mix_materials(c, m, whole, at, out);
 }

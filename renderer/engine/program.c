@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine_internal.h"
+#include "changes.h"
 #include "protocol/memory.h"
 
 /* Of those that the processor has, from the widest; NULL behind the last. */
@@ -303,6 +303,7 @@ struct engine_program *engine_program_create(struct field *field, int lanes, int
         engine_program_destroy(program);
         return NULL;
     }
+    changes_find_extents(program);
     return program;
 }
 
@@ -328,6 +329,7 @@ void engine_program_destroy(struct engine_program *program)
         }
         free(program->codes);
         free(program->operations);
+        free(program->extents);
         free(program->kinds);
         field_unref(program->field);
         free(program);

@@ -8,24 +8,34 @@
 enum { TILE_LEAST = 16 };
 
 struct crew {
+    void (*task)(struct crew *crew); /* what each thread does */
+    int threads;                     /* at most */
+    cpu_set_t anywhere, elsewhere;   /* processors: this process's; all but that of the caller */
+    atomic_int next, next_thread;
+    enum crash_work crash; /* the work of the thread that draws */
+    /* Drawing: */
     struct engine_canvas *canvas;
     const struct engine_work *work;
-    int threads;
-    enum crash_work crash;   /* the work of the thread that draws */
-    int side, across, count; /* of small tiles; those in a row, and all of them */
-    atomic_int next_tile, next_thread;
+    struct engine_part *parts; /* of the tile, that are drawn */
+    size_t count;
+    pthread_mutex_t lock; /* of `taken` in these */
     atomic_uint_least64_t rays;
-    cpu_set_t anywhere, elsewhere; /* processors: this process's; all but that of the caller */
+    /* Renewing: */
+    struct engine_program *program;
+    struct cubes *cubes;
+    const float *params;
+    const uint8_t *changed;
 };
 
-static struct hand *hand_create(const struct engine_canvas *canvas, int threads,
-                                struct cells *spaces)
+static struct hand *hand_create(const struct engine_canvas *canvas, int threads, int number)
 {
     const struct engine_picture *picture = &canvas->picture;
     struct hand *hand = aligned_room(sizeof *hand);
 
     memset(hand, 0, offsetof(struct hand, starts));
     hand->canvas = canvas;
+    hand->number = number;
+    hand->noted = &canvas->cubes->noted[number];
     hand->scene.material_base = picture->program->scene.material_base;
     hand->scene.material_stride = picture->program->scene.material_stride;
     struct lanes *c = &hand->lanes;
@@ -40,7 +50,7 @@ static struct hand *hand_create(const struct engine_canvas *canvas, int threads,
     c->machine = aligned_room(sizeof *c->machine);
     c->threads = threads;
     c->picture = canvas->number;
-    c->spaces = spaces;
+    c->spaces = canvas->cubes->of[number];
     for (int i = 0; i < ENGINE_SPACES; i++) {
         c->cells = &c->spaces[i];
         cells_begin(c);
@@ -59,52 +69,101 @@ static void hand_destroy(struct hand *hand)
     free(hand);
 }
 
-/* The canvas's next: what it knows of the field is worth keeping from tile to tile. */
-static struct hand *hand_of(struct crew *crew)
+/* What it knows of the field is worth keeping from tile to tile. */
+static struct hand *hand_at(const struct crew *crew, int number)
 {
-    const int number = atomic_fetch_add(&crew->next_thread, 1);
     struct hand **hand = &crew->canvas->hands[number];
 
     if (!*hand) {
-        *hand = hand_create(crew->canvas, crew->threads, crew->canvas->cubes->of[number]);
+        *hand = hand_create(crew->canvas, crew->threads, number);
     }
     (*hand)->work = crew->work;
     (*hand)->rays = 0;
+    (*hand)->lanes.noted = crew->canvas->seen ? (*hand)->noted : NULL;
     return *hand;
 }
 
-static int smaller(int a, int b)
+/* The canvas's next. */
+static struct hand *hand_of(struct crew *crew)
 {
-    return a < b ? a : b;
+    return hand_at(crew, atomic_fetch_add(&crew->next_thread, 1));
 }
 
-static void *take_tiles(void *argument)
+static void draw_part(struct crew *crew, struct hand *hand, const struct engine_part *part)
 {
-    struct crew *crew = argument;
-    const struct engine_rect tile = crew->work->tile;
-    struct hand *hand = hand_of(crew);
+    const struct engine_rect rect = part->rect;
 
-    for (int i = atomic_fetch_add(&crew->next_tile, 1); i < crew->count;
-         i = atomic_fetch_add(&crew->next_tile, 1)) {
-        const int x = i % crew->across * crew->side, y = i / crew->across * crew->side;
-        draw_tile(hand, tile.x + x, tile.y + y, smaller(crew->side, tile.width - x),
-                  smaller(crew->side, tile.height - y));
-    }
+    draw_tile(hand, rect.x, rect.y, rect.width, rect.height);
     atomic_fetch_add(&crew->rays, hand->rays);
-    return NULL;
+    hand->rays = 0;
+}
+
+/* The next part that this thread may draw; NULL: there is none. */
+static struct engine_part *next_part(struct crew *crew, int thread)
+{
+    struct engine_part *part = NULL;
+
+    pthread_mutex_lock(&crew->lock);
+    for (size_t i = 0; i < crew->count && !part; i++) {
+        struct engine_part *one = &crew->parts[i];
+        if (!one->taken && (one->thread < 0 || one->thread == thread)) {
+            part = one;
+            part->taken = true;
+        }
+    }
+    pthread_mutex_unlock(&crew->lock);
+    return part;
+}
+
+/* Who drew a part before has its cubes. */
+static void take_parts(struct crew *crew)
+{
+    struct hand *hand = hand_of(crew);
+    const struct engine_part *part;
+
+    while ((part = next_part(crew, hand->number))) {
+        draw_part(crew, hand, part);
+    }
+}
+
+/* Of threads that did not run. */
+static void draw_rest(struct crew *crew)
+{
+    for (size_t i = 0; i < crew->count; i++) {
+        if (!crew->parts[i].taken) {
+            draw_part(crew, hand_at(crew, crew->parts[i].thread), &crew->parts[i]);
+        }
+    }
 }
 
 /* As large as leaves a part of the tile to each thread. */
-static void divide(struct crew *crew)
+static int side_of(const struct crew *crew)
 {
     const struct engine_rect tile = crew->work->tile;
+    int side = 2 * TILE, count;
 
-    crew->side = 2 * TILE;
     do {
-        crew->side /= 2;
-        crew->across = (tile.width + crew->side - 1) / crew->side;
-        crew->count = crew->across * ((tile.height + crew->side - 1) / crew->side);
-    } while (crew->side > TILE_LEAST && crew->count < 2 * crew->threads);
+        side /= 2;
+        count = ((tile.width + side - 1) / side) * ((tile.height + side - 1) / side);
+    } while (side > TILE_LEAST && count < 2 * crew->threads);
+    return side;
+}
+
+static void divide(struct crew *crew, int side)
+{
+    const struct engine_rect tile = crew->work->tile;
+    const int across = (tile.width + side - 1) / side, down = (tile.height + side - 1) / side;
+
+    crew->parts = memory_alloc((size_t)across * (size_t)down, sizeof *crew->parts);
+    for (int y = 0; y < tile.height; y += side) {
+        for (int x = 0; x < tile.width; x += side) {
+            crew->parts[crew->count++] =
+                (struct engine_part){{tile.x + x, tile.y + y, smaller(side, tile.width - x),
+                                      smaller(side, tile.height - y)},
+                                     -1,
+                                     false};
+        }
+    }
 }
 
 static void *help(void *argument)
@@ -113,7 +172,8 @@ static void *help(void *argument)
 
     crash_thread(crew->crash);
     sched_setaffinity(0, sizeof crew->anywhere, &crew->anywhere);
-    return take_tiles(crew);
+    crew->task(crew);
+    return NULL;
 }
 
 /* How many threads may run at once. */
@@ -150,21 +210,104 @@ static int start_helpers(struct crew *crew, pthread_t *threads, int most)
     return started;
 }
 
-static uint64_t draw(struct engine_canvas *canvas, const struct engine_work *work)
+/* The caller is one of at most `most` threads. */
+static void run_crew(struct crew *crew, int most)
 {
-    struct crew crew = {.canvas = canvas, .work = work, .crash = crash_thread_work()};
     pthread_t threads[ENGINE_THREADS];
-    const int processors = find_processors(&crew), asked = canvas->picture.program->threads;
 
-    crew.threads = smaller(asked > 0 ? asked : processors, ENGINE_THREADS);
-    divide(&crew);
-    atomic_init(&crew.next_tile, 0);
-    atomic_init(&crew.next_thread, 0);
-    atomic_init(&crew.rays, 0);
-    int started = start_helpers(&crew, threads, smaller(crew.threads, crew.count) - 1);
-    take_tiles(&crew);
+    crew->crash = crash_thread_work();
+    atomic_init(&crew->next, 0);
+    atomic_init(&crew->next_thread, 0);
+    atomic_init(&crew->rays, 0);
+    int started = start_helpers(crew, threads, smaller(crew->threads, most) - 1);
+    crew->task(crew);
     while (started > 0) {
         pthread_join(threads[--started], NULL);
     }
-    return atomic_load(&crew.rays);
+}
+
+static void find_threads(struct crew *crew, const struct engine_program *program)
+{
+    const int processors = find_processors(crew);
+
+    crew->threads = smaller(program->threads > 0 ? program->threads : processors, ENGINE_THREADS);
+}
+
+/* What all threads know of squares. */
+static void take_squares(struct engine_canvas *canvas, const struct engine_work *work)
+{
+    for (int i = 0; i < ENGINE_THREADS; i++) {
+        struct noted *noted = &canvas->cubes->noted[i];
+        for (size_t k = 0; k < noted->made_count; k++) {
+            seen_take(canvas->seen, noted->made[k], work);
+        }
+        noted->made_count = 0;
+    }
+}
+
+static void verify(struct crew *crew)
+{
+    verify_squares(hand_of(crew));
+}
+
+static struct engine_drawn draw(struct engine_canvas *canvas, const struct engine_work *work)
+{
+    struct crew crew = {
+        .task = take_parts, .canvas = canvas, .work = work, .lock = PTHREAD_MUTEX_INITIALIZER};
+    struct engine_drawn drawn = {0};
+
+    find_threads(&crew, canvas->picture.program);
+    if (canvas->seen && !canvas->verified) {
+        crew.task = verify;
+        run_crew(&crew, crew.threads);
+        crew.task = take_parts;
+        canvas->verified = true;
+    }
+    if (canvas->seen) {
+        crew.count = seen_divide(canvas->seen, canvas->cubes, work, side_of(&crew), &crew.parts);
+    } else {
+        divide(&crew, side_of(&crew));
+    }
+    for (size_t i = 0; i < crew.count; i++) {
+        drawn.pixels += (uint64_t)crew.parts[i].rect.width * (uint64_t)crew.parts[i].rect.height;
+    }
+    if (crew.count > 0) {
+        run_crew(&crew, crew.count < ENGINE_THREADS ? (int)crew.count : ENGINE_THREADS);
+        draw_rest(&crew);
+        drawn.rays = atomic_load(&crew.rays);
+    }
+    free(crew.parts);
+    if (canvas->seen) {
+        take_squares(canvas, work);
+    }
+    return drawn;
+}
+
+/* --- renewing --- */
+
+static void renew_some(struct crew *crew)
+{
+    int i;
+
+    while ((i = atomic_fetch_add(&crew->next, 1)) < ENGINE_THREADS) {
+        renew_spaces(crew->program, crew->cubes->of[i], crew->params, crew->changed,
+                     crew->cubes->edit);
+    }
+}
+
+static void renew(struct engine_program *program, struct cubes *cubes, const float *params,
+                  const uint8_t *changed)
+{
+    struct crew crew = {.task = renew_some,
+                        .program = program,
+                        .cubes = cubes,
+                        .params = params,
+                        .changed = changed};
+    int used = 0;
+
+    for (int i = 0; i < ENGINE_THREADS; i++) {
+        used += cubes->of[i][0].count + cubes->of[i][1].count + cubes->of[i][2].count > 0;
+    }
+    find_threads(&crew, program);
+    run_crew(&crew, used > 0 ? used : 1);
 }

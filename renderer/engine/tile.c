@@ -10,6 +10,11 @@ enum {
     BLOCKS = SIDE / BLOCK_SIDE + 1, /* to a side: they are the picture's, not the tile's */
 };
 
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
 /* A thread's own. `left`, `top`: of the tile with its margin, in the picture. `inner`: the tile's
  * own pixels in it. */
 struct hand {
@@ -24,7 +29,127 @@ struct hand {
     float starts[BLOCKS * BLOCKS]; /* how far the rays of each block are free */
     float geometry[SIDE * SIDE * 4], pixels[SIDE * SIDE * 4], counted[SIDE * SIDE * 2];
     int listed[SIDE * SIDE], listed_count;
+    int number;          /* among the canvas's */
+    struct noted *noted; /* its cubes' */
+    /* The squares of the part that need a pixel: by its column a bit for each in a row of them, by
+     * its row one for each first in a row. */
+    uint16_t columns[SIDE], rows[SIDE];
 };
+
+/* --- which squares a pixel is for --- */
+
+/* Those of a stretch of pixels, from `inner` on, that reach at most `zone` pixels too far. */
+static void find_squares(uint16_t *out, int count, int inner, int length, int zone, int step)
+{
+    const int squares = (length + SQUARE - 1) / SQUARE;
+
+    for (int i = 0; i < count; i++) {
+        out[i] = 0;
+        for (int k = 0; k < squares; k++) {
+            const bool behind = k == 0 || i >= inner + k * SQUARE - zone;
+            const bool before = k == squares - 1 || i < inner + (k + 1) * SQUARE + zone;
+            out[i] |= (uint16_t)((behind && before) << k * step);
+        }
+    }
+}
+
+/* A part's pixels are made of none that are further away than the margin and a sparse tile's
+ * blocks. */
+static void begin_notes(struct hand *hand)
+{
+    const struct engine_picture *picture = &hand->canvas->picture;
+    const struct engine_rect inner = hand->inner;
+    const int zone = picture->margin + (picture->sparse ? SPARSE_STEP : 0);
+
+    find_squares(hand->columns, hand->width, inner.x, inner.width, zone, 1);
+    find_squares(hand->rows, hand->height, inner.y, inner.height, zone, SQUARES);
+    hand->noted->part++;
+    hand->noted->count = hand->noted->value_bytes = 0;
+    memset(hand->noted->materials, 0, sizeof hand->noted->materials);
+}
+
+/* The next evaluations are for LANES rectangles of pixels. */
+static void note_squares(struct hand *hand, vb m, vi left, vi top, int side)
+{
+    uint16_t squares = 0;
+
+    for (int i = 0; i < LANES && hand->lanes.noted; i++) {
+        if (m[i]) {
+            const int right = left[i] + side - 1, bottom = top[i] + side - 1;
+            const int x[2] = {left[i] < 0 ? 0 : left[i],
+                              right < hand->width ? right : hand->width - 1};
+            const int y[2] = {top[i] < 0 ? 0 : top[i],
+                              bottom < hand->height ? bottom : hand->height - 1};
+            squares |= (uint16_t)((hand->columns[x[0]] | hand->columns[x[1]]) *
+                                  (hand->rows[y[0]] | hand->rows[y[1]]));
+        }
+    }
+    hand->noted->squares = squares;
+}
+
+static void take_values(struct seen_square *square, const struct noted *noted, int number)
+{
+    const char *const end = noted->values + noted->value_bytes;
+    const struct noted_value *value;
+    size_t bytes = 0;
+
+    for (const char *at = noted->values; at < end; at += noted_value_bytes(value)) {
+        value = (const void *)at;
+        bytes += value->squares >> number & 1 ? noted_value_bytes(value) : 0;
+    }
+    square->values = memory_alloc(bytes, 1);
+    for (const char *at = noted->values; at < end; at += noted_value_bytes(value)) {
+        value = (const void *)at;
+        if (value->squares >> number & 1) {
+            memcpy(square->values + square->bytes_of_values, at, noted_value_bytes(value));
+            square->bytes_of_values += noted_value_bytes(value);
+        }
+    }
+}
+
+/* The cubes that a square has used. */
+static struct seen_square *make_square(struct hand *hand, int number)
+{
+    const struct noted *noted = hand->noted;
+    const struct cells *spaces = hand->lanes.spaces;
+    struct seen_square *square =
+        memory_alloc(1, sizeof *square + noted->count * sizeof square->used[0]);
+
+    for (size_t i = 0; i < noted->count; i++) {
+        const uint32_t word = noted->cubes[i];
+        const struct cell *cell = &spaces[word >> NOTED_SPACE].at[word & ((1 << NOTED_SPACE) - 1)];
+        const uint32_t uses = (cell->run >> number & 1 ? NOTED_RUN : 0) |
+                              (cell->found >> number & 1 ? NOTED_FOUND : 0);
+        if (uses) {
+            square->used[square->count++] = word | uses;
+        }
+    }
+    square->materials = noted->materials[number];
+    take_values(square, noted, number);
+    return memory_resize(square, 1, sizeof *square + square->count * sizeof square->used[0]);
+}
+
+/* `times`: of the cubes, before the part was drawn. Where they were made anew meanwhile, it is not
+ * known what is used. */
+static void end_notes(struct hand *hand, uint32_t times)
+{
+    struct noted *noted = hand->noted;
+    const struct engine_rect inner = hand->inner;
+
+    for (int y = 0; y < inner.height && times == cubes_times(hand->lanes.spaces); y += SQUARE) {
+        for (int x = 0; x < inner.width; x += SQUARE) {
+            struct seen_square *square = make_square(hand, x / SQUARE + SQUARES * (y / SQUARE));
+            square->rect = (struct engine_rect){hand->left + inner.x + x, hand->top + inner.y + y,
+                                                smaller(SQUARE, inner.width - x),
+                                                smaller(SQUARE, inner.height - y)};
+            square->edit = hand->canvas->cubes->edit;
+            square->times = times;
+            square->thread = (uint8_t)hand->number;
+            noted->made = memory_one_more((void *)noted->made, noted->made_count, sizeof(void *));
+            noted->made[noted->made_count++] = square;
+        }
+    }
+}
 
 /* Of pixels of the tile. Blocks are those of the picture, whatever the tile. */
 static vi block_of(const struct hand *hand, vi x, vi y)
@@ -48,6 +173,9 @@ static void find_starts(struct hand *hand)
 
     for (int i = 0; i < count; i += LANES) {
         const vi at = i + lanes_number, column = at % across, row = at / across;
+        note_squares(hand, at < count,
+                     (column + (hand->left >> BLOCK_BITS)) * BLOCK_SIDE - hand->left,
+                     (row + (hand->top >> BLOCK_BITS)) * BLOCK_SIDE - hand->top, BLOCK_SIDE);
         const vf block[2] = {(vf)(column + (hand->left >> BLOCK_BITS)),
                              (vf)(row + (hand->top >> BLOCK_BITS))};
         const vf start = spmd_block_start(&hand->lanes, at < count, block);
@@ -117,6 +245,8 @@ static void add_sample(struct hand *hand, vb m, vi x, vi y, int index)
     const vf pixel[2] = {(vf)(x + hand->left), (vf)(y + hand->top)};
     const vf start = lanes_gather(hand->starts, block_of(hand, x, y), m);
     vf total[4] = {0}, geometry[4] = {0}, met[SPMD_Met] = {0}, light[4] = {0}, counts[2] = {0};
+
+    note_squares(hand, m, x, y, 1);
     const vi rays =
         spmd_trace(c, m, pixel, start, index, picture->rays, picture->transmission_depth,
                    picture->shadows, picture->lights, total, geometry, met);
@@ -303,8 +433,15 @@ static void draw_tile(struct hand *hand, int x, int y, int width, int height)
     hand->width = right - left;
     hand->height = bottom - top;
     hand->inner = (struct engine_rect){x - left, y - top, width, height};
+    const uint32_t times = cubes_times(hand->lanes.spaces);
+    if (hand->lanes.noted) {
+        begin_notes(hand);
+    }
     find_starts(hand);
     draw_samples(hand);
+    if (hand->lanes.noted) {
+        end_notes(hand, times);
+    }
     for (size_t i = 0; i < hand->work->output_count; i++) {
         if (is_light(&hand->work->outputs[i])) {
             write_light(hand, &hand->work->outputs[i]);

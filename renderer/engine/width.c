@@ -10,8 +10,10 @@
 
 #include "interpret.c"
 #include "points.c"
+#include "renew.c"
 #include "textures.c"
 #include "tile.c"
+#include "verify.c"
 
 #include "environment_texels.c"
 #include "threads.c"
@@ -38,6 +40,7 @@ const struct engine_width NAME(LANES) = {LANES,
                                          calls,
                                          sizeof calls / sizeof calls[0],
                                          draw,
+                                         renew,
                                          hand_destroy,
                                          distances,
                                          make_map};

@@ -8,7 +8,14 @@
 #include "local_render.h"
 #include "server/embedded.h"
 
-enum bench_part { BENCH_ALL, BENCH_DRAWING, BENCH_GROWTH, BENCH_DOCUMENTS, BENCH_EDITS };
+enum bench_part {
+    BENCH_ALL,
+    BENCH_DRAWING,
+    BENCH_GROWTH,
+    BENCH_CHANGES,
+    BENCH_DOCUMENTS,
+    BENCH_EDITS
+};
 /* The name of a part; NULL behind the last one. */
 const char *bench_part_name(size_t part);
 
@@ -53,6 +60,15 @@ bool bench_stages(struct renderer *renderer, const struct embedded *example,
  * by its time with materials that need neither. */
 bool bench_effects(struct renderer *renderer, const struct embedded *example,
                    const struct bench_effort *effort, cJSON *row, struct error *err);
+
+/* So many shapes in a cube of side 2, in one union. */
+struct scene *bench_union(int count, struct error *err);
+/* One row for each number of shapes: the processor's time of a picture that is the first of its
+ * scene, that follows an edit of one shape's place, that shows another view, and that does both;
+ * the same as a ratio to that of the first; and the part of the pixels that was drawn after an
+ * edit. */
+cJSON *bench_changes(const struct renderer_params *params, const struct bench_effort *effort,
+                     struct error *err);
 
 /* One row for each family of scenes, drawn by the engine: the processor's time of a picture by the
  * number of shapes, the same as a ratio to that of the fewest, and the exponent of growth from 100

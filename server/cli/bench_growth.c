@@ -94,7 +94,8 @@ static void write_instances(FILE *out, uint64_t *state, double radius, int count
 }
 
 /* All shapes lie in a cube of side 2 and get smaller as they get more. */
-static struct scene *make_scene(const struct family *family, int count, struct error *err)
+static struct scene *make_scene(const struct family *family, int count, const char *beside,
+                                struct error *err)
 {
     char *text = NULL;
     size_t length;
@@ -105,7 +106,8 @@ static struct scene *make_scene(const struct family *family, int count, struct e
     if (!out) {
         abort();
     }
-    fputs("{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[2.5,2,4]},\"root\":", out);
+    fprintf(out,
+            "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[2.5,2,4]},%s\"root\":", beside);
     if (family->modelled) {
         write_instances(out, &state, radius, count);
     } else {
@@ -116,6 +118,12 @@ static struct scene *make_scene(const struct family *family, int count, struct e
     struct scene *scene = scene_parse(text, length, err);
     free(text);
     return scene;
+}
+
+struct scene *bench_union(int count, struct error *err)
+{
+    return make_scene(&families[0], count,
+                      "\"lights\":[{\"type\":\"directional\",\"direction\":[-0.5,-1,-0.3]}],", err);
 }
 
 /* --- measuring --- */
@@ -178,7 +186,7 @@ static cJSON *grow(struct renderer *renderer, const struct family *family,
     bool ok = true;
 
     for (int i = 0; ok && i < SIZES; i++) {
-        struct scene *scene = make_scene(family, sizes[i], err);
+        struct scene *scene = make_scene(family, sizes[i], "", err);
         scenes[i] = scene ? resident_create(renderer, scene, 1) : NULL;
         ok = scenes[i] != NULL;
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which cubes of space pictures begin with: those of the same program and shapes, of few fields. */
+/* Which cubes of space pictures begin with: those of the same program, renewed for its numbers
+ * where few are others; of few fields. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,17 +17,34 @@ enum { FIELDS = 5 }; /* one more than are kept */
 static struct engine_cubes *kept;
 static struct engine_program *programs[FIELDS];
 
-/* A mark tells cubes apart: new ones have 0 there. */
-static int32_t draw(size_t program, const float *params, int32_t mark)
+static struct cubes *take(size_t program, const float *params, uint32_t *out_picture)
 {
-    uint64_t numbers;
+    static const struct frame_uniforms frame = {.max_distance = 10};
+    const struct engine_picture picture = {
+        .program = programs[program], .params = params, .frame = &frame};
+
+    return cubes_take(kept, &picture, out_picture);
+}
+
+/* A mark tells cubes apart: new ones have 0 there. Answers the one that was found, and in `*edits`
+ * how often these cubes were renewed. */
+static int32_t draw_renewed(size_t program, const float *params, int32_t mark, uint32_t *edits)
+{
     uint32_t picture;
-    struct cubes *cubes = cubes_take(kept, programs[program], params, &numbers, &picture);
+    struct cubes *cubes = take(program, params, &picture);
     const int32_t found = cubes->of[0][0].last;
 
+    *edits = cubes->edit;
     cubes->of[0][0].last = mark;
-    cubes_give(kept, programs[program], numbers, cubes);
+    cubes_give(kept, programs[program], cubes);
     return found;
+}
+
+static int32_t draw(size_t program, const float *params, int32_t mark)
+{
+    uint32_t edits;
+
+    return draw_renewed(program, params, mark, &edits);
 }
 
 static const float *params_of(size_t program)
@@ -34,46 +52,71 @@ static const float *params_of(size_t program)
     return programs[program]->field->params;
 }
 
-static void same_shapes_find_theirs(void **state)
+static void other_numbers_renew_them(void **state)
 {
     const struct field *field = programs[0]->field;
-    const size_t shapes = 4 * field->material_base, bytes = 4 * field->vec4_count * sizeof(float);
+    const size_t numbers = 4 * field->vec4_count, bytes = numbers * sizeof(float);
     float *other = malloc(bytes);
+    uint32_t edits;
 
     (void)state;
     assert_non_null(other);
     memcpy(other, field->params, bytes);
-    assert_int_equal(draw(0, field->params, 1), 0);
-    assert_int_equal(draw(0, field->params, 2), 1);
-    other[shapes] += 0.25f; /* a colour */
-    assert_int_equal(draw(0, other, 3), 2);
-    for (size_t i = 0; i < shapes; i++) {
-        memcpy(other, field->params, bytes);
+    assert_int_equal(draw_renewed(0, other, 1, &edits), 0);
+    assert_int_equal(draw_renewed(0, other, 1, &edits), 1);
+    assert_int_equal(edits, 0);
+    for (size_t i = 0; i < 4 * field->material_base; i++) {
         other[i] += 0.25f;
-        assert_int_equal(draw(0, other, 4), 0);
+        assert_int_equal(draw_renewed(0, other, 1, &edits), 1);
+        assert_int_equal(edits, i + 1);
     }
     free(other);
 }
 
+/* Numbers that belong to no operation: here behind the last material, where lists of points are. */
+static void unknown_numbers_find_none(void **state)
+{
+    const struct field *field = programs[0]->field;
+    const size_t bytes = 4 * field->vec4_count * sizeof(float);
+    const size_t behind = 4 * (field->material_base + 2 * field->material_stride);
+    float *other = malloc(bytes);
+
+    (void)state;
+    assert_non_null(other);
+    assert_true(behind < 4 * field->vec4_count);
+    memcpy(other, field->params, bytes);
+    assert_int_equal(draw(0, other, 1), 0);
+    other[behind] += 0.25f;
+    assert_int_equal(draw(0, other, 1), 0);
+    free(other);
+}
+
 /* A list of points lies behind the materials. */
-static void other_points_find_none(void **state)
+static void points_belong_to_their_shape(void **state)
 {
     struct error err = {0};
     struct scene *scene =
-        json_text_valid_scene("{'format':'fieldcast/1','root':{'id':'r','type':'polygon'}}");
+        json_text_valid_scene("{'format':'fieldcast/1','root':{'id':'r','type':'union','children':["
+                              "{'id':'a','type':'sphere'},{'id':'b','type':'polygon'}]}}");
     struct field *field = field_compile(scene, &err);
 
     (void)state;
     assert_non_null(field);
     struct engine_program *program = engine_program_create(field, 0, 1);
-    struct engine_program *before = programs[0];
-    const size_t points = 4 * (field->material_base + 2 * field->material_stride);
-    programs[0] = program;
-    assert_int_equal(draw(0, field->params, 1), 0);
-    assert_int_equal(draw(0, field->params, 1), 1);
-    field->params[points] += 0.25f;
-    assert_int_equal(draw(0, field->params, 1), 0);
-    programs[0] = before;
+    const size_t bytes = 4 * field->vec4_count * sizeof(float);
+    float *other = malloc(bytes);
+    memcpy(other, field->params, bytes);
+    other[4 * (field->material_base + 2 * field->material_stride)] += 0.25f;
+    uint8_t *changed = changes_of_operations(program, field->params, other);
+    assert_non_null(changed);
+    for (size_t i = 0; i < program->count; i++) {
+        const struct operation *in = &program->operations[i];
+        const struct node_type *type = program->kinds[in->kind].type;
+        assert_int_equal(changed[i],
+                         in->op == FIELD_SHAPE && strcmp(type->record.name, "polygon") == 0);
+    }
+    free(changed);
+    free(other);
     engine_program_destroy(program);
     field_unref(field);
     scene_destroy(scene);
@@ -105,19 +148,18 @@ static void the_one_that_waited_longest_goes(void **state)
 /* Two pictures at once, and none twice. */
 static void what_was_taken_is_gone(void **state)
 {
-    uint64_t numbers;
     uint32_t first, second;
     struct cubes *ours, *theirs;
 
     (void)state;
     draw(0, params_of(0), 1);
-    ours = cubes_take(kept, programs[0], params_of(0), &numbers, &first);
-    theirs = cubes_take(kept, programs[0], params_of(0), &numbers, &second);
+    ours = take(0, params_of(0), &first);
+    theirs = take(0, params_of(0), &second);
     assert_int_equal(ours->of[0][0].last, 1);
     assert_int_equal(theirs->of[0][0].last, 0);
     assert_int_not_equal(first, second);
-    cubes_give(kept, programs[0], numbers, ours);
-    cubes_give(kept, programs[0], numbers, theirs);
+    cubes_give(kept, programs[0], ours);
+    cubes_give(kept, programs[0], theirs);
 }
 
 static int set_up(void **state)
@@ -154,8 +196,9 @@ static int tear_down(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(same_shapes_find_theirs, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(other_points_find_none, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(other_numbers_renew_them, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(unknown_numbers_find_none, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(points_belong_to_their_shape, set_up, tear_down),
         cmocka_unit_test_setup_teardown(other_fields_have_their_own, set_up, tear_down),
         cmocka_unit_test_setup_teardown(the_one_that_waited_longest_goes, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_was_taken_is_gone, set_up, tear_down),
