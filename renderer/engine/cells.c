@@ -446,12 +446,13 @@ static void note_run(struct lanes *c, const struct cell *run, vb m, const vf *p)
 }
 
 /* A long tape has operations that matter elsewhere in the cube alone. What it gave is noted
- * instead, and asked for again after an edit. */
+ * instead, and asked for again after an edit; estimates are not. */
 static void note_value(struct lanes *c, const struct cell *run, vb m, const vf *p, vf d)
 {
     struct noted *noted = c->noted;
 
-    if (run->count < VALUE_TAPE || noted->value_bytes > NOTED_VALUES) {
+    if (run->count < VALUE_TAPE || noted->value_bytes > NOTED_VALUES ||
+        lanes_any(m & c->field_estimates_0)) {
         note_run(c, run, m, p);
         return;
     }
