@@ -78,7 +78,7 @@ function trimmed(json: Json): Json {
 
 test("the scene of the protocol's page reads and prints", () => {
     const scenes = examples("scene");
-    expect(scenes.length).toBe(6);
+    expect(scenes.length).toBe(7);
     for (const example of scenes) {
         expect(equalJson(trimmed(printDocument(readDocument(example))), trimmed(example))).toBe(
             true,
