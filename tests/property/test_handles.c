@@ -36,8 +36,9 @@ static const struct {
 static const struct {
     const char *type, *param;
 } bare[] = {
-    {"gyroid", "thickness"}, /* the sides of the wall have no closed form */
-    {"polygon", "points"},   /* a list: its points are places themselves */
+    {"gyroid", "thickness"},     /* the sides of the wall have no closed form */
+    {"polygon", "points"},       /* a list: its points are places themselves */
+    {"parametric", "thickness"}, /* expressions say where the surface is */
 };
 
 static bool is_apart(const char *type, const char *param, int point)
