@@ -394,15 +394,16 @@ void render_queue_worker_ready(struct hub *hub)
     dispatch(hub);
 }
 
-/* A picture was begun and cannot be drawn. The scene is suspended for viewers; a
- * picture that was ordered may have been for a larger one. */
+/* A picture was begun and cannot be drawn. The scene is suspended for viewers, for the last of the
+ * pictures of a view too: those before it may have been the engine's. A picture that was ordered
+ * may have asked for more. */
 static void undrawn(const struct render_entry *entry, struct error *err)
 {
     struct room *room = entry->order.room;
 
     if (room && err->kind == ERROR_TOO_SLOW) {
         describe_slow(room, err->measured_ms, err->limit_ms, err);
-        if (entry->order.priority < RENDER_LOSSLESS && room->suspended.kind == ERROR_NONE) {
+        if (entry->order.priority < RENDER_IMAGE && room->suspended.kind == ERROR_NONE) {
             suspend(room, err);
         }
     }

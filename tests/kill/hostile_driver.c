@@ -35,16 +35,17 @@ enum act {
     SLEEP,
     DRAW_SLOWLY,
     DRAW_HARDLY,
+    DRAW_HARDLY_LATE,
     SLEEP_LATER
 };
 
 static const struct {
     const char *number;
     enum act act;
-} acts[] = {{"31337.5", HANG},        {"31338.5", CRASH},       {"31339.5", EAT},
-            {"31340.5", CRASH_LATER}, {"31341.5", HANG_ONCE},   {"31342.5", HANG_TWICE},
-            {"31343.5", SLEEP},       {"31344.5", DRAW_SLOWLY}, {"31345.5", DRAW_HARDLY},
-            {"31346.5", SLEEP_LATER}};
+} acts[] = {{"31337.5", HANG},        {"31338.5", CRASH},           {"31339.5", EAT},
+            {"31340.5", CRASH_LATER}, {"31341.5", HANG_ONCE},       {"31342.5", HANG_TWICE},
+            {"31343.5", SLEEP},       {"31344.5", DRAW_SLOWLY},     {"31345.5", DRAW_HARDLY},
+            {"31346.5", SLEEP_LATER}, {"31347.5", DRAW_HARDLY_LATE}};
 
 /* Pictures of environments, by their width. */
 static const struct {
@@ -57,6 +58,7 @@ enum {
     EAT_BYTES = 1 << 20,
     GROUP_MS = 10,
     HARD_GROUP_MS = 250,
+    LATE_MS = 1000, /* of compiling */
     HANG_RATE = 10,
     NS = 1000000000
 };
@@ -200,6 +202,9 @@ static void APIENTRY source(GLuint shader, GLsizei count, const GLchar *const *s
     case SLEEP:
         pause();
         break;
+    case DRAW_HARDLY_LATE:
+        spend(LATE_MS);
+        break;
     case CRASH:
         __builtin_trap();
     case EAT:
@@ -237,8 +242,10 @@ static void APIENTRY use(GLuint program)
     }
     group_ms = !elsewhere                                   ? 0
                : is_later[program % OBJECTS] == DRAW_SLOWLY ? GROUP_MS
-               : is_later[program % OBJECTS] == DRAW_HARDLY ? HARD_GROUP_MS
-                                                            : 0;
+               : is_later[program % OBJECTS] == DRAW_HARDLY ||
+                       is_later[program % OBJECTS] == DRAW_HARDLY_LATE
+                   ? HARD_GROUP_MS
+                   : 0;
     real_use(program);
 }
 

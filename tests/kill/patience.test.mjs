@@ -33,6 +33,7 @@ const HANG_ONCE = ball('31341.5');
 const HANG_TWICE = ball('31342.5');
 const DRAW_SLOWLY = ball('31344.5'); // 10 ms for each 8 × 8 pixels in each pass
 const DRAW_HARDLY = ball('31345.5'); // 250 ms
+const DRAW_HARDLY_LATE = ball('31347.5'); // compiled when the engine has drawn for a while
 
 const scene = (code) => ({
     format: 'fieldcast/1',
@@ -274,6 +275,14 @@ test('a scene whose smallest part takes too long is suspended with its measure',
     live.say({ type: 'retry', place: '/nodes/root' });
     await live.next('notice', { code: 'retrying' });
     await live.nextFrame();
+    await live.close();
+});
+
+test('a scene whose first pictures were drawn while it was compiled is suspended by the last', async () => {
+    const daemon = await start('--tile-time', '500');
+    const live = await open(daemon, 'late', DRAW_HARDLY_LATE, SMALL);
+    const notice = await live.next('notice', { code: 'scene_left_out' });
+    assert.deepEqual([notice.limit, notice.reason], [500, 'too_slow']);
     await live.close();
 });
 

@@ -151,7 +151,6 @@ export class Live {
     }
 
     receive(bytes) {
-        heard();
         this.buffer = this.buffer.length ? Buffer.concat([this.buffer, bytes]) : bytes;
         if (this.status === null) {
             const end = this.buffer.indexOf('\r\n\r\n');
@@ -168,7 +167,11 @@ export class Live {
         }
     }
 
+    /** A ping is no sign of life: a daemon that waits for something that never comes sends them too. */
     take({ final, opcode, payload }) {
+        if (opcode !== PING) {
+            heard();
+        }
         if (opcode === CLOSE) {
             this.closeCode = payload.length >= 2 ? payload.readUInt16BE(0) : 1005;
             this.socket.end(encodeMessage(CLOSE, payload.subarray(0, 2)));
