@@ -149,8 +149,8 @@ static struct picker_field *find_field(struct picker *picker, const struct quest
     return best;
 }
 
-/* A copy of the state that is picked in: the newest, for which it lets go of the lock, or the last
- * good one where that is what is shown. */
+/* A copy of the state that is picked in: the newest, for which it may let go of the lock, or the
+ * last good one where that is what is shown. */
 static struct scene *copy_scene(struct room *room, const struct picker_field *picks,
                                 uint64_t *out_revision)
 {
@@ -166,12 +166,7 @@ static struct scene *copy_scene(struct room *room, const struct picker_field *pi
     if (good) {
         return last_good_copy(room, good);
     }
-    room_hold(room);
-    hub_unlock(room->hub);
-    struct scene *copy = scene_copy(room->scene);
-    hub_lock(room->hub);
-    room_release(room);
-    return copy;
+    return room_copy(room);
 }
 
 /* Without the code, where the server runs none. Takes `scene`. */

@@ -2,7 +2,7 @@
 /* The surface of a node that is drawn as it is written: three expressions and two ranges. The
  * picture follows what is typed. Meanwhile the server looks for the equation, which may take the
  * surface's place in one edit. */
-import { useEffect, useMemo, useRef, useState } from "react";
+import { useMemo } from "react";
 import { qualityOf } from "../../link/qualityRest.ts";
 import { paramAt } from "../../model/document.ts";
 import type { Json } from "../../model/json.ts";
@@ -24,11 +24,10 @@ import { Button } from "../widgets/Button.tsx";
 import { Mark } from "./Mark.tsx";
 import { Range, useEquation } from "./Parametric.tsx";
 import { surfaceText } from "./surfaceTexts.ts";
+import { useTypedText } from "./typedText.ts";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
-/* A pause in typing after which the text is sent. */
-const SEND_MS = 250;
 const NOTHING: Surface = { texts: { x: "", y: "", z: "" }, ranges: {} };
 const OWN_LETTERS = ["a", "b", "c", "d"];
 
@@ -99,18 +98,8 @@ interface PartFieldProps {
 }
 
 function PartField({ label, part, place, text, onInput, onCommit, onCancel }: PartFieldProps) {
-    const [draft, setDraft] = useState<string | null>(null);
-    const timer = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);
+    const { shown, listeners } = useTypedText({ text, onInput, onCommit, onCancel });
     const problem = useDocument(({ problems }) => problems.get(place) ?? null);
-    const shown = draft ?? text;
-    useEffect(() => () => clearTimeout(timer.current), []);
-    const end = (take: boolean): void => {
-        clearTimeout(timer.current);
-        if (draft !== null) {
-            take ? onCommit(draft) : onCancel();
-        }
-        setDraft(null);
-    };
     return (
         <div className="parametric-part">
             <span aria-hidden="true">{part} =</span>
@@ -121,21 +110,7 @@ function PartField({ label, part, place, text, onInput, onCommit, onCancel }: Pa
                 spellCheck={false}
                 autoComplete="off"
                 aria-invalid={problem !== null || undefined}
-                onChange={({ target }) => {
-                    setDraft(target.value);
-                    clearTimeout(timer.current);
-                    timer.current = setTimeout(() => onInput(target.value), SEND_MS);
-                }}
-                onBlur={() => end(true)}
-                onKeyDown={(event) => {
-                    if (event.key === "Enter") {
-                        event.preventDefault();
-                        end(true);
-                    } else if (event.key === "Escape" && draft !== null) {
-                        event.stopPropagation();
-                        end(false);
-                    }
-                }}
+                {...listeners}
             />
             {problem?.line !== undefined && (
                 <Mark text={shown} line={problem.line} column={problem.column ?? 1} />
