@@ -53,6 +53,8 @@
       "The most processor time that a thread has used while it held the lock of all scenes")       \
     X(PICKS_GIVEN_UP, "picks_given_up_total", "counter",                                           \
       "Picks not answered because their client asked for more")                                    \
+    X(PICK_RESTS, "pick_rests_total", "counter",                                                   \
+      "Times that a session had to rest because its picks took much of the front's time")          \
     X(IMAGES_OVER_SHARE, "images_over_share_total", "counter",                                     \
       "Pictures refused because their client had its share of the queue")                          \
     X(IMAGES_OVER_QUEUE, "images_over_queue_total", "counter",                                     \

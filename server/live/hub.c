@@ -36,6 +36,15 @@ void hub_wait(struct hub *hub, pthread_cond_t *condition)
     hub->locked_us = clock_thread_us();
 }
 
+void hub_wait_until(struct hub *hub, pthread_cond_t *condition, int64_t until_us)
+{
+    const struct timespec until = {until_us / 1000000, until_us % 1000000 * 1000};
+
+    measure(hub);
+    pthread_cond_clockwait(condition, &hub->lock, CLOCK_MONOTONIC, &until);
+    hub->locked_us = clock_thread_us();
+}
+
 bool hub_id_is_valid(const char *id)
 {
     size_t length = strlen(id);

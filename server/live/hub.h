@@ -69,6 +69,8 @@ void hub_lock(struct hub *hub);
 void hub_unlock(struct hub *hub);
 /* Lets go of the lock until the condition is signalled. */
 void hub_wait(struct hub *hub, pthread_cond_t *condition);
+/* The same, until `until_us` of clock_us at most. */
+void hub_wait_until(struct hub *hub, pthread_cond_t *condition, int64_t until_us);
 /* The open room with that id; NULL: none is open. Under the lock. */
 struct room *hub_find_room(const struct hub *hub, const char *id);
 /* Refuse users' code where the server accepts none: false and ERROR_FORBIDDEN, with the place of

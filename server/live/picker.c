@@ -297,15 +297,24 @@ static void answer(struct picker *picker, const struct question *question)
     }
 }
 
-/* The oldest of the session that took the least time. */
-static struct question *take(struct picker *picker)
+/* The oldest of the session that took the least time. NULL: all rest, one until `*out_until`. */
+static struct question *take(struct picker *picker, int64_t *out_until)
 {
-    struct question **best = &picker->first;
+    struct question **best = NULL;
+    const int64_t now_us = clock_us();
 
+    *out_until = 0;
     for (struct question **at = &picker->first; *at; at = &(*at)->next) {
-        if (account_is_before((*at)->account, (*best)->account)) {
+        const int64_t rest_us = (*at)->session->picks_rest_us;
+
+        if (rest_us > now_us) {
+            *out_until = clock_earlier(*out_until, rest_us);
+        } else if (!best || account_is_before((*at)->account, (*best)->account)) {
             best = at;
         }
+    }
+    if (!best) {
+        return NULL;
     }
     struct question *question = *best;
     *best = question->next;
@@ -314,22 +323,47 @@ static struct question *take(struct picker *picker)
     return question;
 }
 
+static void charge(struct picker *picker, struct question *question, int64_t spent_us)
+{
+    struct session *session = question->session;
+    const int64_t now_us = clock_us();
+
+    accounts_charge(question->account, spent_us);
+    if (session) {
+        const int64_t rest_us = workload_charge(&session->picks, now_us, spent_us);
+
+        session->picks_rest_us = now_us + rest_us;
+        metric_add(&picker->hub->metrics, METRIC_PICK_RESTS, rest_us > 0);
+    }
+}
+
+static void serve(struct picker *picker, struct question *question)
+{
+    const int64_t begun_us = clock_thread_us();
+
+    picker->current = question;
+    answer(picker, question);
+    charge(picker, question, clock_thread_us() - begun_us);
+    question_destroy(picker, question);
+    picker->current = NULL;
+}
+
 static void *run(void *data)
 {
     struct picker *picker = data;
 
     hub_lock(picker->hub);
     while (!picker->stop) {
-        if (!picker->first) {
+        int64_t until_us;
+        struct question *question = take(picker, &until_us);
+
+        if (question) {
+            serve(picker, question);
+        } else if (until_us) {
+            hub_wait_until(picker->hub, &picker->work, until_us);
+        } else {
             hub_wait(picker->hub, &picker->work);
-            continue;
         }
-        picker->current = take(picker);
-        const int64_t begun_us = clock_thread_us();
-        answer(picker, picker->current);
-        accounts_charge(picker->current->account, clock_thread_us() - begun_us);
-        question_destroy(picker, picker->current);
-        picker->current = NULL;
     }
     hub_unlock(picker->hub);
     return NULL;

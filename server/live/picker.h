@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Picks: which node is under the pointer. A thread of its own answers them without the worker, so
  * that a click never waits for a picture. Each session has an account of the thread's time, and the
- * one that took the least is next (protocol/accounts.h). */
+ * one that took the least is next (protocol/accounts.h). Who asks without end has half of the time
+ * at most, also where nobody else asks, because drawing needs the processors too. */
 #ifndef SERVER_PICKER_H
 #define SERVER_PICKER_H
 

@@ -5,6 +5,7 @@
 #define SERVER_SESSION_H
 
 #include "server/net/send_queue.h"
+#include "server/net/workload.h"
 #include "server/net/ws.h"
 
 struct author;
@@ -30,7 +31,9 @@ struct session {
     bool heavy;        /* that short message may take long */
     bool left;         /* its connection has closed meanwhile */
     int64_t worked_us; /* processor time of the last task */
-    int close_code;    /* > 0: close when the queue is empty, or at once when it is full */
+    struct workload picks;
+    int64_t picks_rest_us; /* clock_us until which none of its picks is answered */
+    int close_code;        /* > 0: close when the queue is empty, or at once when it is full */
     bool close_now;
     /* Call it when something has to be written or closed; any thread. */
     void (*wake)(void *connection);

@@ -14,6 +14,8 @@ const LARGE = { width: 4096, height: 4096 };
 const PICTURES = 40;
 const BETWEEN = 8; // tiles of others between a question and its answer: a question takes as long as a few
 const EDITS = 10;
+const PICKS = 800;
+const AT_ONCE = 8; // that are answered
 const VIEWS = 40; // of one who acknowledges nothing
 const NEWCOMERS = 40;
 const COMING = 10;
@@ -228,6 +230,25 @@ test('one who sends large edits without end leaves half of the time to others', 
     // Edits that arrive together are followed by one rest.
     assert.ok((await counter(daemon, 'connection_rests_total')) > 0, 'it rests');
     await Promise.all([guest.close(), other.close()]);
+});
+
+test('who asks what is under the pointer without end leaves half of the time to others', async (t) => {
+    // Each of them is asked at each step of a ray.
+    const child = (_, i) => ({ type: 'sphere', params: { radius: 0.5 }, transform: { translation: [(i % 50) / 50, i / 9000, 0] } });
+    const root = { id: 'root', type: 'smooth_union', params: { k: 1, kernel: 'exponential' }, children: Array.from({ length: 9000 }, child) };
+    await ask(daemon, 'POST', '/v1/scenes?id=crowd', { format: 'fieldcast/1', root });
+    const guest = await Live.open(daemon, 'crowd');
+    guest.look({ ...from(0), width: 64, height: 64 });
+    const rests = () => counter(daemon, 'pick_rests_total');
+    const before = await rests();
+    for (let last = AT_ONCE; (await rests()) < before + 3; last += AT_ONCE) {
+        for (let pick = last - AT_ONCE + 1; pick <= last; pick += 1) {
+            guest.say({ type: 'pick', pick, seq: guest.seq, x: pick % 64, y: (7 * pick) % 64 });
+        }
+        await guest.next('picked', { pick: last });
+        assert.ok(last < PICKS, 'it rests');
+    }
+    await guest.close();
 });
 
 test('who has sent much work is told how long the server rests', async () => {
