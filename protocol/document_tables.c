@@ -279,6 +279,29 @@ const struct record_type shader_types[] = {
         {"scale", PARAM_FLOAT, UNIT_LENGTH, .def = {1}, .min = 0, .max = LIMIT_COORDINATE,
          .above_min = true, .step = 0.1, .doc = "Side of a cube."},
         GLOSS)},
+    {"map", "Colours by the value of a function of the place in the object, with contour lines. It "
+     "transmits no light.", PARAMS(
+        {"function", PARAM_EQUATION, .main = true,
+         .doc = "Such as sqrt(x^2 + z^2), or an equation, of which the left side less the right "
+                "one counts. Empty: y."},
+        {"from", PARAM_FLOAT, .def = {-1}, .step = 0.05, .doc = "Value with the low colour."},
+        {"to", PARAM_FLOAT, .def = {1}, .step = 0.05, .doc = "Value with the high colour."},
+        {"low", PARAM_COLOR, .def = {0.03, 0.13, 0.42}, .min = 0, .max = 1, .step = 0.05,
+         .doc = "Colour of the lowest value, and of those below."},
+        {"middle", PARAM_COLOR, .def = {0.86, 0.82, 0.72}, .min = 0, .max = 1, .step = 0.05,
+         .means = "color", .doc = "Colour of the value half-way."},
+        {"high", PARAM_COLOR, .def = {0.52, 0.05, 0.04}, .min = 0, .max = 1, .step = 0.05,
+         .doc = "Colour of the highest value, and of those above."},
+        {"lines", PARAM_INT, .def = {10}, .min = 0, .max = 1000, .step = 1, .main = true,
+         .doc = "Contour lines between the two values; 0 for none. One of them is at 0."},
+        {"slope", PARAM_BOOL,
+         .doc = "Colours by the length of the function's gradient, not by its value."},
+        {"a", LETTER, .when = "function~a", .doc = "The letter a in the function."},
+        {"b", LETTER, .when = "function~b", .doc = "The letter b."},
+        {"c", LETTER, .when = "function~c", .doc = "The letter c."},
+        {"d", LETTER, .when = "function~d", .doc = "The letter d."},
+        {"roughness", PARAM_FLOAT, .def = {0.4}, .min = 0, .max = 1, .step = 0.05,
+         .means = "roughness", .doc = "From 0, a mirror, to 1, matt."})},
     {.name = NULL},
 };
 

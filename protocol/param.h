@@ -70,6 +70,9 @@ struct param {
     const char *doc;
 };
 
+/* Of the row of a letter of an equation. */
+#define LETTER PARAM_FLOAT, UNIT_NONE, .def = {1}, .step = 0.01
+
 /* Always holds something that its row accepts. */
 struct value {
     double number[4]; /* names, texts and code use `text` */

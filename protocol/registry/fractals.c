@@ -2,7 +2,6 @@
 /* Registry: fractals, minimal surfaces and landscapes. */
 #include "rows.h"
 
-#define LETTER PARAM_FLOAT, UNIT_NONE, .def = {1}, .step = 0.01
 #define COUNT PARAM_INT, UNIT_NONE, .step = 1, .main = true
 
 /* clang-format off */

@@ -179,8 +179,29 @@ static uint16_t add_root(struct equation *equation)
     return (uint16_t)equation->count++;
 }
 
-char *equation_code(const struct equation *equation, const char *const *letters,
-                    struct equation_form form)
+static void write_distance(const struct equation_writer *w, uint16_t root,
+                           struct equation_form form)
+{
+    if (is_called(w, EQUATION_POWER, -1)) {
+        fputs("mat3 jet_exp(mat3 a) { return jet_of(a, range_exp(a[2].xy)); }\n", w->out);
+    }
+    write_within(w, root, form);
+    write_sdf(w, form);
+}
+
+static void write_function(const struct equation_writer *w, uint16_t root, const char *rest)
+{
+    fputs("vec4 function_at(vec3 p)\n{\n", w->out);
+    write_nodes(w, false, equation_write_scalar);
+    write_nodes(w, true, equation_write_gradient);
+    fprintf(w->out, varies(w, root) ? "return g%d;\n}\n" : "return vec4(0.0, 0.0, 0.0, s%d);\n}\n",
+            root);
+    fputs(rest, w->out);
+}
+
+/* `form` NULL: the function alone, and the rest. */
+static char *write(const struct equation *equation, const char *const *letters,
+                   const struct equation_form *form, const char *rest)
 {
     struct equation whole = *equation;
     char *text = NULL;
@@ -192,11 +213,23 @@ char *equation_code(const struct equation *equation, const char *const *letters,
     mark_used(&w);
     w.used[root] = true;
     write_functions(&w);
-    if (is_called(&w, EQUATION_POWER, -1)) {
-        fputs("mat3 jet_exp(mat3 a) { return jet_of(a, range_exp(a[2].xy)); }\n", w.out);
+    if (form) {
+        write_distance(&w, root, *form);
+    } else {
+        write_function(&w, root, rest);
     }
-    write_within(&w, root, form);
-    write_sdf(&w, form);
     fclose(w.out);
     return text;
+}
+
+char *equation_code(const struct equation *equation, const char *const *letters,
+                    struct equation_form form)
+{
+    return write(equation, letters, &form, "");
+}
+
+char *equation_function_code(const struct equation *equation, const char *const *letters,
+                             const char *rest)
+{
+    return write(equation, letters, NULL, rest);
 }

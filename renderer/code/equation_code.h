@@ -39,5 +39,9 @@ double equation_unsteady(double extent);
  * thickness, and the equation's letters. The caller frees it. */
 char *equation_code(const struct equation *equation, const char *const *letters,
                     struct equation_form form);
+/* The text of vec4 function_at(vec3 p), with `rest` behind it: gradient and value of left - right,
+ * which reads the equation's letters. The caller frees it. */
+char *equation_function_code(const struct equation *equation, const char *const *letters,
+                             const char *rest);
 
 #endif

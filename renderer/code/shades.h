@@ -9,6 +9,9 @@
 struct shade {
     const char *shader; /* name of the row, whose parameters the code reads */
     bool unlit;         /* the colour is what is seen; else lights fall on it */
+    /* The parameter, the first one, with an equation, whose function_at (equation_code.h) the text
+     * calls; it is y where none is given. NULL: none. */
+    const char *function;
     const char *text;
 };
 

@@ -15,10 +15,12 @@ struct builder_points {
 
 /* The code that a material is shaded by. */
 struct builder_material_shader {
-    const char *text; /* NULL: none */
-    bool own, unlit;
+    const char *text;        /* NULL: none; else what it is found by */
+    const struct shade *own; /* of the registry; NULL: the document's */
+    bool unlit;
     bool transmissive; /* light may go through what it shades */
     int index;         /* in the field's shaders, -1: none, or it does not compile */
+    int first;         /* of the material's parameters that it reads */
 };
 
 struct result;

@@ -112,19 +112,20 @@ static void fail_equation(struct builder *b, const struct equation_errors *error
     builder_fail(b, &err, place);
 }
 
-struct equation *field_call_equation(struct builder *b, const struct field_call *call)
+struct equation *field_read_equation(struct builder *b, const char *text, const char *place)
 {
     struct equation_errors errors;
-    struct equation *equation = equation_read(call->text, equation_letters, &errors);
+    struct equation *equation = equation_read(text, equation_letters, &errors);
 
     if (!equation) {
-        fail_equation(b, &errors, call->place);
+        fail_equation(b, &errors, place);
     }
     return equation;
 }
 
-/* Code is bounded by what it takes to run it. */
-static bool check_operations(struct builder *b, const struct equation *equation, const char *place)
+/* Code is bounded by what it takes to run it. `besides`: why it is not taken as a polynomial. */
+static bool check_operations(struct builder *b, const struct equation *equation,
+                             const char *besides, const char *place)
 {
     struct error err = {0};
 
@@ -132,18 +133,22 @@ static bool check_operations(struct builder *b, const struct equation *equation,
         return true;
     }
     error_set_at(&err, ERROR_LIMIT, "", 1, 1,
-                 "%zu different operations and no polynomial of degree %d at most "
-                 "(polynomial_degree), above the maximum %d (equation_operations)",
-                 equation->count, LIMIT_POLYNOMIAL_DEGREE, LIMIT_EQUATION_OPERATIONS);
+                 "%zu different operations%s, above the maximum %d (equation_operations)",
+                 equation->count, besides, LIMIT_EQUATION_OPERATIONS);
     builder_fail(b, &err, place);
     return false;
 }
 
 static int add_equation(struct builder *b, const struct field_call *call)
 {
-    struct equation *equation = field_call_equation(b, call);
+    char no_polynomial[80];
 
-    if (!equation || !check_operations(b, equation, call->place)) {
+    snprintf(no_polynomial, sizeof no_polynomial,
+             " and no polynomial of degree %d at most (polynomial_degree)",
+             LIMIT_POLYNOMIAL_DEGREE);
+    struct equation *equation = field_read_equation(b, call->text, call->place);
+
+    if (!equation || !check_operations(b, equation, no_polynomial, call->place)) {
         free(equation);
         return -1;
     }
@@ -153,6 +158,31 @@ static int add_equation(struct builder *b, const struct field_call *call)
     free(text);
     free(equation);
     return index;
+}
+
+static int add_map(struct builder *b, const char *text, const char *shade,
+                   const struct param *params, const char *place)
+{
+    struct equation *equation = field_read_equation(b, text, place);
+
+    if (!equation || !check_operations(b, equation, "", place)) {
+        free(equation);
+        return -1;
+    }
+    char *whole = equation_function_code(equation, equation_letters, shade);
+    const struct code_source source = {CODE_SHADE, whole, params, true};
+    const int index = add(b, text, &source, place);
+    free(whole);
+    free(equation);
+    return index;
+}
+
+int field_map_add(struct builder *b, const char *equation, const char *shade,
+                  const struct param *params, const char *place)
+{
+    const int found = find(b, CODE_SHADE, equation);
+
+    return found >= 0 || b->failed ? found : add_map(b, equation, shade, params, place);
 }
 
 int field_call_add(struct builder *b, const struct field_call *call)

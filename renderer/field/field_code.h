@@ -10,13 +10,16 @@
  * already; -1 and the builder's error, which names `place`, where it does not compile. */
 int field_code_add(struct builder *b, enum code_use use, const char *text,
                    const struct param *params, const char *place);
+/* The same for our shader that calls the function of an equation (renderer/code/shades.h). It is
+ * found by the equation's text. */
+int field_map_add(struct builder *b, const char *equation, const char *shade,
+                  const struct param *params, const char *place);
 /* The same for what a shape calls. */
 struct field_call;
 int field_call_add(struct builder *b, const struct field_call *call);
 
-/* The equation of a shape that has one; the caller frees it. NULL, and the builder's error: it
- * cannot be read. */
-struct equation *field_call_equation(struct builder *b, const struct field_call *call);
+/* The caller frees it. NULL, and the builder's error: the text cannot be read. */
+struct equation *field_read_equation(struct builder *b, const char *text, const char *place);
 
 /* BUILDER_HASH_START, or what was hashed before, with a text behind it. */
 uint64_t field_text_hash(uint64_t state, const char *text);

@@ -202,31 +202,45 @@ static struct builder_material_shader material_shader_of(const struct resource *
 {
     const struct resource *shader = material->shader;
     const struct shade *own = shader ? NULL : shade_find(material->record.type->name);
-    struct builder_material_shader material_shader = {.own = own != NULL, .index = -1};
+    struct builder_material_shader material_shader = {.own = own, .index = -1};
 
     if (material->users > 0 && shader) {
         material_shader.text = record_text(&shader->record, "code");
         material_shader.unlit = record_is(&shader->record, "lighting", "unlit");
     } else if (material->users > 0 && own) {
-        material_shader.text = own->text;
+        const char *function = own->function ? record_text(&material->record, own->function) : "";
+
+        material_shader.text = !own->function ? own->text : *function ? function : "y";
         material_shader.unlit = own->unlit;
+        material_shader.first = own->function != NULL;
     }
     return material_shader;
+}
+
+static int add_code(struct builder *b, const struct resource *material,
+                    const struct builder_material_shader *material_shader)
+{
+    const struct param *params = material->record.type->params + material_shader->first;
+    const struct shade *own = material_shader->own;
+    char place[ERROR_PLACE_BYTES] = "";
+
+    if (own && own->function) {
+        snprintf(place, sizeof place, "/materials/%s/properties/%s", material->name, own->function);
+        return field_map_add(b, material_shader->text, own->text, params, place);
+    }
+    if (material->shader) {
+        snprintf(place, sizeof place, "/shaders/%s/code", material->shader->name);
+    }
+    return field_code_add(b, CODE_SHADE, material_shader->text, params, place);
 }
 
 static void add_material_shader(struct builder *b, const struct resource *material,
                                 struct builder_material_shader *material_shader)
 {
-    char place[ERROR_PLACE_BYTES] = "";
-
-    if (material->shader) {
-        snprintf(place, sizeof place, "/shaders/%s/code", material->shader->name);
-    }
-    material_shader->index =
-        field_code_add(b, CODE_SHADE, material_shader->text, material->record.type->params, place);
+    material_shader->index = add_code(b, material, material_shader);
     if (material_shader->index >= 0) {
         struct field_code *shader = &b->field->shaders[material_shader->index];
-        shader->own = material_shader->own;
+        shader->own = material_shader->own != NULL;
         material_shader->transmissive =
             !material_shader->unlit && code_is_transmissive(shader->code);
     }
@@ -267,7 +281,8 @@ static void put_painter(struct builder *b, uint32_t vec4, const struct record *r
         to[FIELD_REFLECTIVITY] = 1;
         to[FIELD_TRANSMISSION] = material_shader->transmissive;
     }
-    builder_put_params(b, record->type->params, record->values, NULL, 1,
+    builder_put_params(b, record->type->params + material_shader->first,
+                       record->values + material_shader->first, NULL, 1,
                        vec4 + FIELD_MATERIAL_VEC4S, 0, arguments);
 }
 

@@ -265,7 +265,7 @@ static struct result emit_called(struct builder *b, const struct node *node,
     if (!call.is_equation) {
         return emit_code(b, node, frame, slot, number, &call);
     }
-    struct equation *equation = field_call_equation(b, &call);
+    struct equation *equation = field_read_equation(b, call.text, call.place);
     if (equation && equation_degree(equation) >= 0) {
         result = emit_polynomial(b, node, frame, slot, number, &call, equation);
     } else if (equation) {

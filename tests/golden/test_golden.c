@@ -32,7 +32,7 @@
 #define ROOT "tests/golden"
 
 enum {
-    CASES = 183,
+    CASES = 184,
     CASES_MAX = 400,
     WIDTH = 160,
     HEIGHT = 120,

@@ -195,6 +195,86 @@ static void colours_of_ours_agree(void **state)
     pair_finish(&pair);
 }
 
+/* By x^2 + a sin(z) and the length of its gradient, in the object's own space, black to white. */
+static double shade_of(const double p[3], bool slope)
+{
+    const double value = p[0] * p[0] + 0.5 * sin(p[2]);
+    const double length = hypot(2 * p[0], 0.5 * cos(p[2]));
+
+    return slope ? fmin(length / 4, 1) : fmin(fmax((value + 1) / 4, 0), 1);
+}
+
+static void maps_have_the_colours_of_their_functions(void **state)
+{
+    (void)state;
+    static float points[POINTS][3];
+    static struct probe_answer answers[POINTS];
+    static const char map[] = "{'shader':'map','properties':{'function':'x^2 + a*sin(z)','a':0.5,"
+                              "'low':[0,0,0],'middle':[0.5,0.5,0.5],'high':[1,1,1],'lines':0,"
+                              "'roughness':0.25,";
+    char materials[800];
+
+    snprintf(materials, sizeof materials,
+             "'materials':{'v':%s'from':-1,'to':3}},'s':%s'slope':true,'from':0,'to':4}}},", map,
+             map);
+    struct pair pair =
+        pair_of(materials, "{'type':'union','children':[{'type':'box','material':'v',"
+                           "'transform':{'translation':[1,0,0],'rotation':[0,0.4,0]}"
+                           "},{'type':'sphere','material':'s',"
+                           "'transform':{'translation':[-1,0,0]}}]}");
+    random_points(points);
+    ask(pair.field, 0, points, POINTS, answers);
+    int counts[2] = {0};
+    for (int i = 0; i < POINTS; i++) {
+        const bool slope = answers[i].leaf == 3;
+        const double at[3] = {points[i][0], points[i][1], points[i][2]};
+        const double turn = slope ? 0 : 0.4, x = at[0] + (slope ? 1 : -1);
+        const double local[3] = {cos(turn) * x - sin(turn) * at[2], at[1],
+                                 sin(turn) * x + cos(turn) * at[2]};
+        const double want = shade_of(local, slope);
+        const struct field_surface here = field_surface(pair.field, at, NULL);
+
+        for (int j = 0; j < 3; j++) {
+            assert_float_equal(answers[i].material[FIELD_DIFFUSE + j], want, 1e-5);
+            assert_float_equal(here.material[FIELD_DIFFUSE + j], want, 1e-5);
+        }
+        assert_true(answers[i].material[FIELD_GLOSS] == 0.25f);
+        counts[slope]++;
+    }
+    assert_true(counts[0] > 500 && counts[1] > 500);
+    pair_finish(&pair);
+}
+
+/* Dark at each value that a line has, and nowhere between two of them. */
+static void a_map_has_its_lines(void **state)
+{
+    (void)state;
+    struct pair pair = pair_of("'materials':{'m':{'shader':'map','properties':{'low':[1,1,1],"
+                               "'middle':[1,1,1],'high':[1,1,1],'lines':8}}},",
+                               "{'type':'box','material':'m','params':{'size':[4,4,4]}}");
+
+    for (int i = 0; i <= 16; i++) {
+        const double at[3] = {0.3, -1 + i / 8.0, 0.3}; /* without a function it is y */
+        const double want = i % 2 == 0 ? 0.2 : 1;
+        assert_float_equal(field_surface(pair.field, at, NULL).material[FIELD_DIFFUSE], want, 1e-6);
+    }
+    pair_finish(&pair);
+}
+
+static void a_function_that_cannot_be_read_has_its_place(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct scene *scene = json_text_valid_scene(
+        "{'format':'fieldcast/1','materials':{'m':{'shader':'map','properties':{"
+        "'function':'x +\\n2 *'}}},'root':{'type':'sphere','material':'m'}}");
+
+    assert_null(field_compile(scene, &err));
+    assert_string_equal(err.place, "/materials/m/properties/function");
+    assert_int_equal(err.line, 2);
+    scene_destroy(scene);
+}
+
 /* Rounding must not scatter two colours over a face, nor its rim have another one. */
 static void a_face_between_two_cubes_has_the_inner_colour(void **state)
 {
@@ -410,6 +490,9 @@ int main(void)
         cmocka_unit_test(every_shader_has_its_numbers),
         cmocka_unit_test(a_blend_of_models_has_one_of_them),
         cmocka_unit_test(colours_of_ours_agree),
+        cmocka_unit_test(maps_have_the_colours_of_their_functions),
+        cmocka_unit_test(a_map_has_its_lines),
+        cmocka_unit_test(a_function_that_cannot_be_read_has_its_place),
         cmocka_unit_test(a_face_between_two_cubes_has_the_inner_colour),
         cmocka_unit_test(only_code_of_users_is_theirs),
         cmocka_unit_test(either_kind_can_be_looked_at_alone),
