@@ -84,6 +84,8 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
         {.param = {"visible", PARAM_BOOL, .def = {1}, .doc = "false stops frames."}},
         {.param = {"guides", PARAM_BOOL,
           .doc = "true: a frame at rest tells which node each pixel shows."}},
+        {.param = {"depths", PARAM_BOOL,
+          .doc = "true: a frame of a moving view tells how far its pixels are."}},
         {.param = {"isolate", .max = LIMIT_ISOLATED,
           .doc = "Ids: this client's pictures and picks show these nodes and what is below them."
                  " Absent, or none in the scene: all."},

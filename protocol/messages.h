@@ -56,6 +56,7 @@ enum frame_flag {
     FRAME_STILL = 2,    /* full resolution, the view rests */
     FRAME_LOSSLESS = 4, /* these are the pixels of image.png at this revision and view */
     FRAME_STALE = 8,    /* the scene is already newer than the picture: its shader compiles */
+    FRAME_DEPTHS = 16,  /* depths of its blocks follow the picture */
 };
 
 struct frame_header {

@@ -20,6 +20,7 @@ const struct record_type delivery_type = {"delivery", "How a picture comes to wh
     {"key", PARAM_BOOL, .doc = "Decodes without earlier pictures of the stream."},
     {"zipped", PARAM_BOOL, .doc = "A ZIP also of one picture."},
     {"guide", PARAM_BOOL, .doc = "A guide instead of pictures; of the output id, raw."},
+    {"depths", PARAM_BOOL, .doc = "Depths of its blocks behind the picture; of color and depth."},
     {.name = NULL}}};
 /* clang-format on */
 

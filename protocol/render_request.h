@@ -26,7 +26,8 @@ struct render_request {
  * `sparse`: of fewer rays than pixels, for a picture that moves;
  * `chroma_halved`: JPEG 4:2:0; `fast`: PNG that is quick to write; `zipped`: a ZIP also of one;
  * `key`: it decodes without earlier pictures of the stream; `guide`: a CODEC_GUIDE, of the output
- * id as NPY. */
+ * id as NPY; `depths`: those of blocks of pixels behind the picture, of the outputs color and
+ * depth. */
 extern const struct record_type delivery_type;
 
 /* A colour picture of the usual size, PNG. */

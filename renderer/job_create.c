@@ -55,7 +55,8 @@ static bool find_forms(struct job *job, const struct job_desc *desc, struct erro
         if (!desc->aovs[i] && (any || aov != AOV_COLOR)) {
             continue;
         }
-        job->formats[i] = output_format_find(aov, desc->as_floats);
+        job->formats[i] =
+            output_format_find(aov, desc->as_floats || (desc->raw_depth && aov == AOV_DEPTH));
         if (!job->formats[i]) {
             return error_set(err, ERROR_INVALID, "aov", "%s has raw values alone: format npy",
                              aov_name(aov));

@@ -211,6 +211,7 @@ struct job_desc {
     bool in_rounds;  /* of ever more samples, each a whole picture: JOB_ROUND. Color alone */
     bool sparse;     /* fewer rays than pixels, with one sample; the engine does so for color */
     bool as_floats;  /* give raw values (codec_is_raw), not 8/16-bit pixels */
+    bool raw_depth;  /* of AOV_DEPTH at least */
     /* Ids of nodes: only they and what is below them are seen, inside of what is around them. None,
      * or none that the scene has: everything is. Compiles nothing. Borrowed for the call. */
     const char *const *isolated;

@@ -20,6 +20,7 @@ struct job_desc job_desc_of(const struct render_request *request)
         .in_rounds = render_request_is(request, "in_rounds"),
         .sparse = render_request_is(request, "sparse"),
         .as_floats = codec_is_raw(request->codec),
+        .raw_depth = render_request_is(request, "depths"),
         .isolated = (const char *const *)request->isolate.ids,
         .isolated_count = request->isolate.count,
     };

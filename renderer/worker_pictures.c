@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "crash.h"
+#include "depths.h"
 #include "guide.h"
 #include "patient.h"
 #include "protocol/memory.h"
@@ -70,6 +71,8 @@ static bool begin_job(struct worker *w, const struct packet_render *packet, stru
     }
     job->stream = render_request_is(packet->request, "guide")
                       ? stream_encoder_open(&guide_stream, job_field(job->drawing))
+                  : render_request_is(packet->request, "depths")
+                      ? stream_encoder_open(&depths_stream, NULL)
                       : stream_encoder_open(&picture_stream, NULL);
     if (render_request_is(packet->request, "key")) {
         stream_encoder_ask_key(job->stream);

@@ -21,15 +21,17 @@ static enum engine_smoothing smoothing_of(const struct render_settings *settings
     }
 }
 
-/* Only light is interpolated, and only as bytes. */
+/* Only light is interpolated, and only as bytes; and distances beside it. */
 static bool is_sparse(const struct draw_picture *picture)
 {
+    const struct output_format *color = picture->formats[AOV_COLOR];
+
     for (int i = 0; i < AOV_COUNT; i++) {
-        if (picture->formats[i] && (i != AOV_COLOR || picture->formats[i]->floats)) {
+        if (picture->formats[i] && i != AOV_COLOR && i != AOV_DEPTH) {
             return false;
         }
     }
-    return picture->settings.sparse;
+    return picture->settings.sparse && color && !color->floats;
 }
 
 static bool begin(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,

@@ -63,7 +63,7 @@ struct engine_picture {
     int rays;               /* of a sample after the first */
     int transmission_depth; /* surfaces that light goes through; 0: none */
     bool shadows, lights;   /* whether they are wanted */
-    bool sparse;            /* one sample, of fewer pixels where that pays; light alone */
+    bool sparse;            /* one sample, of fewer pixels where that pays; light, distances */
 };
 
 /* What pictures keep for the next of the same field. Of one thread; it outlives its canvases. */

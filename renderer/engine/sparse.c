@@ -115,6 +115,20 @@ static void interpolate(float *values, int count, int to, const int corners[4], 
     }
 }
 
+/* The nearest corner's. */
+static void fill_distances(struct hand *hand, const int corners[4])
+{
+    float *all = hand->distances;
+    const float nearest =
+        f_min(f_min(all[corners[0]], all[corners[1]]), f_min(all[corners[2]], all[corners[3]]));
+
+    for (int y = 0; y < SPARSE_STEP; y++) {
+        for (int x = y == 0; x < SPARSE_STEP; x++) {
+            all[corners[0] + y * SIDE + x] = nearest;
+        }
+    }
+}
+
 /* A distance without end has no mean. */
 static void fill_block(struct hand *hand, const int corners[4])
 {
@@ -145,6 +159,9 @@ static void draw_sparse(struct hand *hand)
             const int corners[4] = {at, at + SPARSE_STEP, below, below + SPARSE_STEP};
             if (is_even(hand, corners)) {
                 fill_block(hand, corners);
+                if (hand->wants_distances) {
+                    fill_distances(hand, corners);
+                }
             } else {
                 draw_block(hand, x, y);
             }

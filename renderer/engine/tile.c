@@ -28,6 +28,8 @@ struct hand {
     struct engine_rect inner;
     float starts[BLOCKS * BLOCKS]; /* how far the rays of each block are free */
     float geometry[SIDE * SIDE * 4], pixels[SIDE * SIDE * 4], counted[SIDE * SIDE * 2];
+    float distances[SIDE * SIDE]; /* of a sparse tile, where they are wanted */
+    bool wants_distances;
     int listed[SIDE * SIDE], listed_count;
     int number;          /* among the canvas's */
     struct noted *noted; /* its cubes' */
@@ -210,7 +212,35 @@ static bool is_light(const struct engine_output *output)
     return output->kind == OUT_COLOR || output->kind == OUT_LINEAR;
 }
 
-/* All outputs but light, of what the first sample of pixels x, y met. */
+/* Of a sparse tile's pixels most have no ray. */
+static bool is_between_rays(const struct hand *hand, const struct engine_output *output)
+{
+    return hand->canvas->picture.sparse && output->kind == OUT_DEPTH;
+}
+
+static bool wants_distances(const struct hand *hand)
+{
+    for (size_t o = 0; o < hand->work->output_count; o++) {
+        if (is_between_rays(hand, &hand->work->outputs[o])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void note_distances(struct hand *hand, vb m, vi at, const vf *met)
+{
+    vf color[4];
+
+    spmd_output_of(&hand->lanes, m, OUT_DEPTH, met, color);
+    for (int i = 0; i < LANES; i++) {
+        if (m[i]) {
+            hand->distances[at[i]] = color[0][i];
+        }
+    }
+}
+
+/* Outputs but light, of what the first sample of pixels x, y met. */
 static void write_met(struct hand *hand, vb m, vi x, vi y, const vf *met)
 {
     const struct engine_rect inner = hand->inner;
@@ -220,7 +250,7 @@ static void write_met(struct hand *hand, vb m, vi x, vi y, const vf *met)
     for (size_t o = 0; o < hand->work->output_count; o++) {
         const struct engine_output *output = &hand->work->outputs[o];
         vf color[4];
-        if (is_light(output)) {
+        if (is_light(output) || is_between_rays(hand, output)) {
             continue;
         }
         if (output->kind == OUT_ID_RAW) {
@@ -252,10 +282,13 @@ static void add_sample(struct hand *hand, vb m, vi x, vi y, int index)
                    picture->shadows, picture->lights, total, geometry, met);
 
     spmd_sample_sums(c, m, total, light, counts);
+    const vi at = y * SIDE + x;
     if (index == 0) {
         write_met(hand, m, x, y, met);
+        if (hand->wants_distances) {
+            note_distances(hand, m, at, met);
+        }
     }
-    const vi at = y * SIDE + x;
     for (int i = 0; i < LANES; i++) {
         if (!m[i]) {
             continue;
@@ -377,6 +410,16 @@ static void write_light(struct hand *hand, const struct engine_output *output)
     }
 }
 
+static void write_distances(struct hand *hand, const struct engine_output *output)
+{
+    const struct engine_rect inner = hand->inner;
+
+    for (int y = inner.y; y < inner.y + inner.height; y++) {
+        memcpy(place_of(hand, output, hand->left + inner.x, hand->top + y),
+               hand->distances + y * SIDE + inner.x, (size_t)inner.width * sizeof(float));
+    }
+}
+
 #include "sparse.c"
 
 static void draw_samples(struct hand *hand)
@@ -437,6 +480,7 @@ static void draw_tile(struct hand *hand, int x, int y, int width, int height)
     if (hand->lanes.noted) {
         begin_notes(hand);
     }
+    hand->wants_distances = wants_distances(hand);
     find_starts(hand);
     draw_samples(hand);
     if (hand->lanes.noted) {
@@ -445,6 +489,8 @@ static void draw_tile(struct hand *hand, int x, int y, int width, int height)
     for (size_t i = 0; i < hand->work->output_count; i++) {
         if (is_light(&hand->work->outputs[i])) {
             write_light(hand, &hand->work->outputs[i]);
+        } else if (is_between_rays(hand, &hand->work->outputs[i])) {
+            write_distances(hand, &hand->work->outputs[i]);
         }
     }
     if (hand->canvas->kept.width > 0) {

@@ -123,6 +123,7 @@ void stream_set_view(struct session *session, const struct message *message)
         .preference = find_preference(json_member_text(json, "quality", "auto")),
         .visible = json_member_bool(json, "visible", true),
         .guides = json_member_bool(json, "guides", false),
+        .depths = json_member_bool(json, "depths", false),
     };
     struct record *picture = &view.picture.picture;
 
@@ -132,6 +133,7 @@ void stream_set_view(struct session *session, const struct message *message)
     record_put_text(picture, "aov", json_member_text(json, "aov", aov_name(AOV_COLOR)));
     if (old && same_picture(old, &view)) {
         old->seq = view.seq;
+        old->depths = view.depths;
         render_request_finish(&view.picture);
         return;
     }
@@ -325,7 +327,7 @@ static uint8_t flags_of(const struct stream *stream, const struct packet_frame *
     const uint8_t flags = stage_rules[stream->job_stage].flags;
 
     return (frame->more ? flags & ~FRAME_LOSSLESS : flags) | (frame->key ? FRAME_KEY : 0) |
-           (newest ? 0 : FRAME_STALE);
+           (newest ? 0 : FRAME_STALE) | (stream->job_depths ? FRAME_DEPTHS : 0);
 }
 
 static struct frame_header header_of(struct session *session, const struct picture_answer *answer,
@@ -436,11 +438,12 @@ static bool may_be_jpeg(const struct session *session, const struct record *pict
            record_number(&session->room->scene->render, "transparent") == 0;
 }
 
-static void put_guide_outputs(struct record *picture)
+static void put_depth_beside(struct record *picture, enum aov other)
 {
-    const bool outputs[AOV_COUNT] = {[AOV_ID] = true, [AOV_DEPTH] = true};
+    bool outputs[AOV_COUNT] = {[AOV_DEPTH] = true};
     char text[AOVS_TEXT_BYTES];
 
+    outputs[other] = true;
     aovs_print(outputs, text);
     record_put_text(picture, "aov", text);
 }
@@ -468,11 +471,13 @@ static void make_request(struct session *session, const struct stream_view *view
     record_put(delivery, "in_rounds", stage == STREAM_LOSSLESS);
     record_put(delivery, "key", send_queue_wants_key(&session->send_queue));
     record_put(delivery, "guide", stage == STREAM_GUIDE);
-    if (stage == STREAM_GUIDE) {
-        put_guide_outputs(picture);
-    }
     out->codec =
         rule->codec == CODEC_JPEG && !may_be_jpeg(session, picture) ? CODEC_PNG : rule->codec;
+    const bool depths = view->depths && stage == STREAM_MOVING && out->codec == CODEC_JPEG;
+    record_put(delivery, "depths", depths);
+    if (stage == STREAM_GUIDE || depths) {
+        put_depth_beside(picture, depths ? AOV_COLOR : AOV_ID);
+    }
 }
 
 static void ask(struct session *session, enum stream_stage stage)
@@ -493,6 +498,7 @@ static void ask(struct session *session, enum stream_stage stage)
     stream->done = stage;
     stream->job_stage = stage;
     stream->job_pixels = render_request_pixels(&order.request);
+    stream->job_depths = render_request_is(&order.request, "depths");
     stream->job_seq = view->seq;
     stream->job_view_width = render_request_int(&view->picture, "width");
     stream->job_view_height = render_request_int(&view->picture, "height");

@@ -48,6 +48,7 @@ struct stream_view {
     enum stream_preference preference;
     bool visible;
     bool guides; /* wants to know which node each pixel shows, and how far */
+    bool depths; /* wants to know how far a moving picture's pixels are */
 };
 
 struct stream {
@@ -66,6 +67,7 @@ struct stream {
     uint32_t job_seq;
     int job_view_width, job_view_height;
     int64_t job_pixels;
+    bool job_depths; /* it has depths */
 
     uint32_t last_number;
     bool reads; /* has acknowledged a frame */

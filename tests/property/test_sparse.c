@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Pictures of fewer rays than pixels: near to those of all rays, and no others by their tiles. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -121,6 +122,44 @@ static void values_and_more_samples_have_all_rays(void **state)
     resident_destroy(resident);
 }
 
+/* Light is the same where distances are wanted beside it, and a distance is that of a pixel at most
+ * so far away. */
+static void distances_beside_light_are_near_to_all_rays(void **state)
+{
+    enum { AROUND = 4 };
+    struct resident *resident = drawing_resident(renderer, scenes[1]);
+    struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
+    int far = 0;
+
+    (void)state;
+    desc.level = QUALITY_INTERACTIVE;
+    desc.sparse = desc.raw_depth = true;
+    struct image alone = drawing_of(resident, &desc, AOV_COLOR);
+    struct image full = drawing_of(resident, &desc, AOV_DEPTH);
+    desc.aovs[AOV_COLOR] = desc.aovs[AOV_DEPTH] = true;
+    struct drawing both = drawing_outputs(renderer, resident, &desc);
+    assert_true(drawing_is_same(&alone, &both.of[AOV_COLOR]));
+    const float *told = both.of[AOV_DEPTH].pixels, *true_ones = full.pixels;
+    assert_memory_not_equal(told, true_ones, full.bytes);
+    for (int y = AROUND; y < HEIGHT - AROUND; y++) {
+        for (int x = AROUND; x < WIDTH - AROUND; x++) {
+            float least = INFINITY, most = 0;
+            for (int i = 0; i < (2 * AROUND + 1) * (2 * AROUND + 1); i++) {
+                const float there = true_ones[(y + i / (2 * AROUND + 1) - AROUND) * WIDTH + x +
+                                              i % (2 * AROUND + 1) - AROUND];
+                least = fminf(least, there);
+                most = fmaxf(most, there);
+            }
+            far += told[y * WIDTH + x] < least || told[y * WIDTH + x] > most;
+        }
+    }
+    assert_true(far <= WIDTH * HEIGHT / 500);
+    image_finish(&alone);
+    image_finish(&full);
+    drawing_finish(&both);
+    resident_destroy(resident);
+}
+
 static void large_fields_have_all_rays(void **state)
 {
     const struct job_region all = {0};
@@ -156,6 +195,7 @@ int main(void)
         cmocka_unit_test(tiles_do_not_show),
         cmocka_unit_test(large_fields_have_all_rays),
         cmocka_unit_test(values_and_more_samples_have_all_rays),
+        cmocka_unit_test(distances_beside_light_are_near_to_all_rays),
     };
 
     return cmocka_run_group_tests_name("sparse", tests, start, stop);

@@ -65,6 +65,7 @@ export function readFrameHeader(bytes) {
         still: Boolean(bytes[6] & 2),
         lossless: Boolean(bytes[6] & 4),
         stale: Boolean(bytes[6] & 8),
+        depths: Boolean(bytes[6] & 16),
         number: bytes.readUInt32LE(8),
         bytes: bytes.readUInt32LE(12),
         revision: Number(bytes.readBigUInt64LE(16)),

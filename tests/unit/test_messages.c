@@ -215,7 +215,7 @@ static void members_have_fallbacks(void **state)
 }
 
 static const uint8_t frame_bytes[FRAME_HEADER_BYTES] = {
-    'F',  'C',  'F',  '1',  3,    2,    6,    11,   /* version, codec, flags, stages */
+    'F',  'C',  'F',  '1',  3,    2,    22,   11,   /* version, codec, flags, stages */
     4,    3,    2,    1,    8,    7,    6,    5,    /* number, payload bytes */
     0x16, 0x15, 0x14, 0x13, 0x12, 0x11, 0x10, 0x09, /* revision */
     0x24, 0x23, 0x22, 0x21, 0x80, 2,    0x68, 1,    0,  5, 0xd0, 2, /* seq, sides */
@@ -227,7 +227,7 @@ static const uint8_t frame_bytes[FRAME_HEADER_BYTES] = {
 
 static const struct frame_header frame = {
     .codec = CODEC_PNG,
-    .flags = FRAME_STILL | FRAME_LOSSLESS,
+    .flags = FRAME_STILL | FRAME_LOSSLESS | FRAME_DEPTHS,
     .number = 0x01020304,
     .payload_bytes = 0x05060708,
     .revision = 0x0910111213141516,

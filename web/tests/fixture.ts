@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A small registry, a document, and seeded random edits for the tests of the model. */
+import type { FrameHeader } from "../src/link/protocol.ts";
 import { everyNode, type SceneDocument } from "../src/model/document.ts";
 import { readDocument } from "../src/model/documentJson.ts";
 import type { Json, JsonObject } from "../src/model/json.ts";
@@ -377,3 +378,24 @@ export function randomOperation(
     ];
     return choose(kinds, next)();
 }
+
+/* Of a guide at rest. */
+export const HEADER: FrameHeader = {
+    codec: "guide",
+    key: true,
+    still: true,
+    lossless: false,
+    stale: false,
+    depths: false,
+    number: 7,
+    payloadBytes: 0,
+    revision: 12,
+    input: 5,
+    width: 6,
+    height: 4,
+    viewWidth: 12,
+    viewHeight: 8,
+    round: 1,
+    rounds: 1,
+    stages: [],
+};

@@ -4,7 +4,7 @@ import { deflateSync } from "node:zlib";
 import { expect, test } from "vitest";
 import type { Frame } from "../src/link/decode.ts";
 import { decodeGuide } from "../src/link/guide.ts";
-import { type FrameHeader, packFrame, readPacket } from "../src/link/protocol.ts";
+import { packFrame, readPacket } from "../src/link/protocol.ts";
 import { DEFAULT_CAMERA } from "../src/model/camera.ts";
 import { distanceAt, surfaceAt } from "../src/model/distances.ts";
 import {
@@ -18,26 +18,7 @@ import {
 import { projectionOf } from "../src/model/projection.ts";
 import { IDLE_LINK, NO_FRAME } from "../src/model/stores.ts";
 import { add, length, scale, subtract, type Vector } from "../src/model/transform.ts";
-import { random } from "./fixture.ts";
-
-const HEADER: FrameHeader = {
-    codec: "guide",
-    key: true,
-    still: true,
-    lossless: false,
-    stale: false,
-    number: 7,
-    payloadBytes: 0,
-    revision: 12,
-    input: 5,
-    width: 6,
-    height: 4,
-    viewWidth: 12,
-    viewHeight: 8,
-    round: 1,
-    rounds: 1,
-    stages: [],
-};
+import { HEADER, random } from "./fixture.ts";
 
 const samplesOf = (side: number): number => Math.ceil(side / DISTANCE_STEP);
 

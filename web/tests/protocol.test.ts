@@ -157,6 +157,7 @@ const HEADER: FrameHeader = {
     still: false,
     lossless: true,
     stale: true,
+    depths: true,
     number: 0x01020304,
     payloadBytes: 5,
     revision: 0x123456789a,
@@ -175,7 +176,7 @@ test("the header stands at the offsets of the protocol's page", () => {
     const hex = [...bytes].map((byte) => byte.toString(16).padStart(2, "0")).join("");
     expect(hex).toBe(
         "46434631" /* FCF1 */ +
-            "03010d03" +
+            "03011d03" +
             "04030201" +
             "05000000" +
             "9a78563412000000" +

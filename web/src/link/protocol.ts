@@ -33,6 +33,8 @@ export interface ViewMessage {
     readonly quality: Quality;
     readonly visible: boolean;
     readonly guides: boolean;
+    /* Absent: false. */
+    readonly depths?: boolean;
     /* Ids of the nodes that are shown alone; absent: all are. */
     readonly isolate?: readonly string[];
     /* The plane that cuts the pictures and picks; absent: none. */
@@ -194,6 +196,7 @@ const FLAG_KEY = 1;
 const FLAG_STILL = 2;
 const FLAG_LOSSLESS = 4;
 const FLAG_STALE = 8;
+const FLAG_DEPTHS = 16;
 
 export interface FrameHeader {
     readonly codec: Codec;
@@ -201,6 +204,8 @@ export interface FrameHeader {
     readonly still: boolean;
     readonly lossless: boolean;
     readonly stale: boolean;
+    /* They stand behind the bytes of the picture. */
+    readonly depths: boolean;
     readonly number: number;
     /* Of the whole frame, over all its parts. */
     readonly payloadBytes: number;
@@ -262,6 +267,7 @@ function readHeader(view: DataView): FrameHeader | null {
         still: (flags & FLAG_STILL) !== 0,
         lossless: (flags & FLAG_LOSSLESS) !== 0,
         stale: (flags & FLAG_STALE) !== 0,
+        depths: (flags & FLAG_DEPTHS) !== 0,
         number: view.getUint32(8, true),
         payloadBytes: view.getUint32(12, true),
         revision: Number(view.getBigUint64(16, true)),
@@ -316,7 +322,8 @@ export function packFrame(header: FrameHeader, payload: Uint8Array): ArrayBuffer
         flag(header.key, FLAG_KEY) |
             flag(header.still, FLAG_STILL) |
             flag(header.lossless, FLAG_LOSSLESS) |
-            flag(header.stale, FLAG_STALE),
+            flag(header.stale, FLAG_STALE) |
+            flag(header.depths, FLAG_DEPTHS),
     );
     view.setUint8(7, header.stages.length);
     view.setUint32(8, header.number, true);
