@@ -28,6 +28,8 @@ const FLAGS = [
     '--force-color-profile=srgb',
 ];
 
+const WEBGL_FLAGS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+
 /** Small, quick to draw, with one of everything that the tests touch. */
 export const SCENE = {
     format: 'fieldcast/1',
@@ -100,14 +102,15 @@ function watch(browser) {
 
 /**
  * FIELDCAST_WEB: a built page to serve instead of the one in the program. `data`: where. `driver`: as
- * of startDaemon. `whole`: in the browser that users have.
+ * of startDaemon. `whole`: in the browser that users have. `webgl`: the processors do what it asks for.
  */
-export async function openStage({ data, driver, whole = false, args: more = [] } = {}) {
+export async function openStage({ data, driver, whole = false, webgl = false, args: more = [] } = {}) {
     const web = process.env.FIELDCAST_WEB;
     const args = [...(web ? ['--web', web] : []), ...more];
     const daemon = await startDaemon({ data, driver, args });
     const executablePath = whole ? WHOLE : SHELL;
-    const browser = await chromium.launch({ executablePath, args: FLAGS, timeout: 0 });
+    const flags = webgl ? [...FLAGS.filter((flag) => flag !== '--disable-gpu'), ...WEBGL_FLAGS] : FLAGS;
+    const browser = await chromium.launch({ executablePath, args: flags, timeout: 0 });
     const watched = watch(browser);
     let made = 0;
     return {

@@ -38,6 +38,7 @@ async function tamper(page, state) {
         sockets.push(socket);
     });
     page.tell = (message) => sockets.at(-1).send(JSON.stringify(message));
+    page.pass = (message) => sockets.at(-1).send(message);
     page.cut = () => {
         cut = true;
         sockets.at(-1).close();
@@ -111,6 +112,9 @@ export async function openScreen(stage, state, { theme, width, height, touch }) 
     });
     if (state.tampered) {
         await tamper(page, state);
+    }
+    if (state.script) {
+        await page.addInitScript(state.script);
     }
     const id = state.scene ? await stage.scene(documentOf(state.scene)) : null;
     page.ask = (method, ops) => ask(stage.daemon, method, `/v1/scenes/${id}`, ops);

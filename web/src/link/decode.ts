@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Puts frames together from their messages and decodes them. Runs in the worker and, where there
  * is none, in the page. */
+import type { Depths } from "../model/warp.ts";
+import { splitDepths } from "./depths.ts";
 import type { FrameHeader, Packet } from "./protocol.ts";
 
 /* A frame whose payload is complete. Times by performance.now(). */
@@ -57,8 +59,21 @@ export class FrameAssembler {
     }
 }
 
+export interface Decoded {
+    readonly bitmap: ImageBitmap;
+    /* Null where the server tells none. */
+    readonly depths: Depths | null;
+}
+
 /* The pixels of a frame, exactly as encoded. Rejects where the payload is damaged. */
-export function decode(frame: Frame): Promise<ImageBitmap> {
-    const blob = new Blob([...frame.parts], { type: `image/${frame.header.codec}` });
-    return createImageBitmap(blob, { premultiplyAlpha: "none", colorSpaceConversion: "none" });
+export async function decode({ header, parts }: Frame): Promise<Decoded> {
+    const payload = new Blob([...parts], { type: `image/${header.codec}` });
+    const { picture, depths } = header.depths
+        ? await splitDepths(payload, header)
+        : { picture: payload, depths: null };
+    const bitmap = await createImageBitmap(picture, {
+        premultiplyAlpha: "none",
+        colorSpaceConversion: "none",
+    });
+    return { bitmap, depths };
 }

@@ -2,11 +2,13 @@
 /* The stream side of a live scene: socket, reconnecting, views, frames from bytes to the screen.
  * Runs in the worker, or in the page where a canvas cannot be handed over. Knows no document: it
  * passes messages on and is told where the page stands. */
-import { type Camera, readCamera } from "../model/camera.ts";
+import { type Camera, DEFAULT_CAMERA, equalCamera, readCamera } from "../model/camera.ts";
 import type { Guide } from "../model/guide.ts";
 import type { OutgoingEdit } from "../model/session.ts";
 import type { FrameInfo, FrameState, Statistics } from "../model/stores.ts";
-import { decode, type Frame, FrameAssembler } from "./decode.ts";
+import { nearCamera } from "../model/warp.ts";
+import { type Decoded, decode, type Frame, FrameAssembler } from "./decode.ts";
+import { depthsOfGuide } from "./depths.ts";
 import { decodeGuide } from "./guide.ts";
 import { Meter } from "./meter.ts";
 import { Presenter, type Surface } from "./present.ts";
@@ -24,6 +26,7 @@ import {
     type Tile,
     type ViewMessage,
 } from "./protocol.ts";
+import type { Moved } from "./warp.ts";
 
 export type ViewState = Omit<ViewMessage, "type" | "seq">;
 export type WantedTiles = Omit<ThumbnailsMessage, "type">;
@@ -47,7 +50,8 @@ export type Order =
     | { readonly kind: "at"; readonly revision: number; readonly epoch: string | number }
     | { readonly kind: "send"; readonly message: OutgoingEdit | RetryMessage }
     | ({ readonly kind: "pick" } & Omit<PickMessage, "type" | "seq">)
-    | { readonly kind: "view"; readonly view: ViewState }
+    /* `camera`: also where it is the document's, which a view leaves out. */
+    | { readonly kind: "view"; readonly view: ViewState; readonly camera: Camera }
     | { readonly kind: "thumbnails"; readonly wanted: WantedTiles }
     | { readonly kind: "surface"; readonly surface: Surface | null };
 
@@ -73,6 +77,8 @@ const LONGEST_RETRY_MS = 10_000;
 const STATISTICS_MS = 500;
 /* Hidden pages get no animation frames; what must happen then waits this long. */
 const LATEST_MS = 200;
+/* Of less delay than this nobody is aware, and a warped picture is none of the server's. */
+const WARP_LATENCY_MS = 40;
 
 /* At the next animation frame, or soon where there are none. */
 function soon(callback: () => void): void {
@@ -135,8 +141,19 @@ function looksOf({ quality: _quality, visible: _visible, ...looks }: ViewState):
     return JSON.stringify(looks);
 }
 
-function askedBy(view: ViewState): Asked {
-    return { looks: looksOf(view), camera: view.camera ? readCamera(view.camera) : null };
+function askedBy(view: ViewState, seen: Camera): Asked {
+    const { camera, ...other } = view;
+    return {
+        looks: looksOf(view),
+        subject: looksOf(other),
+        camera: camera ? readCamera(camera) : null,
+        seen,
+    };
+}
+
+/* Only light may be stretched, and only a perspective has one eye. */
+function mayMove(view: ViewState, camera: Camera): boolean {
+    return view.aov === "color" && camera.height === null;
 }
 
 /* Wait before attempt `attempts` + 1: doubling, with jitter so that many pages do not come back
@@ -149,7 +166,19 @@ export function retryDelay(attempts: number, random: number): number {
 /* A view that was asked for: what of it changes the picture, and its camera. */
 interface Asked {
     readonly looks: string;
+    /* The same without the camera. */
+    readonly subject: string;
+    /* Null: the document's. */
     readonly camera: Camera | null;
+    /* Either. */
+    readonly seen: Camera;
+}
+
+/* How far the pixels of a picture are. */
+interface Known {
+    readonly input: number;
+    readonly revision: number;
+    readonly depths: Moved["depths"];
 }
 
 type Open = Extract<Order, { kind: "open" }>;
@@ -167,6 +196,8 @@ export class Engine {
     #bye: { reason: string; retryMs: number | null } | null = null;
     #at: { revision: number; epoch: string | number } | null = null;
     #view: ViewState | null = null;
+    /* What the page looks from. */
+    #camera: Camera = DEFAULT_CAMERA;
     #wanted: WantedTiles | null = null;
     #viewDue = false;
     #seq = 0;
@@ -175,7 +206,10 @@ export class Engine {
     #asked = new Map<number, Asked>();
     #told: FrameInfo | null = null;
     #shown: FrameHeader | null = null;
-    #waiting: { frame: Frame; bitmap: ImageBitmap; decodedAt: number } | null = null;
+    #known: Known | null = null;
+    /* What the picture on screen is warped by. */
+    #moved: Moved | null = null;
+    #waiting: (Decoded & { frame: Frame; decodedAt: number }) | null = null;
     #ticking: ReturnType<typeof setInterval> | null = null;
 
     constructor(report: (report: Report) => void) {
@@ -218,7 +252,7 @@ export class Engine {
                 this.#pick(order);
                 break;
             case "view":
-                this.#setView(order.view);
+                this.#setView(order.view, order.camera);
                 break;
             case "thumbnails":
                 this.#wanted = order.wanted;
@@ -292,6 +326,8 @@ export class Engine {
         this.#dropWaiting();
         this.#assembler.reset();
         this.#shown = null;
+        this.#known = null;
+        this.#moved = null;
         this.#meter.reset();
         if (this.#bye && this.#bye.retryMs === null) {
             this.#state("refused", this.#bye.reason);
@@ -320,6 +356,8 @@ export class Engine {
         this.#dropWaiting();
         this.#assembler.reset();
         this.#shown = null;
+        this.#known = null;
+        this.#moved = null;
         this.#meter.reset();
     }
 
@@ -346,29 +384,36 @@ export class Engine {
 
     /* --- view and pick --- */
 
-    #setView(view: ViewState): void {
+    #setView(view: ViewState, camera: Camera): void {
         if (view.width !== this.#view?.width || view.height !== this.#view.height) {
             this.#presenter.resize(view.width, view.height);
         }
         this.#view = view;
+        this.#camera = camera;
         if (!this.#viewDue) {
             this.#viewDue = true;
             soon(() => {
                 this.#viewDue = false;
                 this.#sendView();
+                this.#follow();
             });
         }
     }
 
     #sendView(): void {
         const text = JSON.stringify(this.#view);
+        const asked = this.#asked.get(this.#seq);
+        if (asked && text === this.#sent) {
+            this.#asked.set(this.#seq, { ...asked, seen: this.#camera });
+        }
         if (!this.#view || text === this.#sent || this.#socket?.readyState !== WebSocket.OPEN) {
             return;
         }
         this.#sent = text;
         this.#seq++;
-        this.#send({ type: "view", seq: this.#seq, ...this.#view });
-        this.#ask(askedBy(this.#view));
+        const depths = this.#warps() ? { depths: true } : {};
+        this.#send({ type: "view", seq: this.#seq, ...this.#view, ...depths });
+        this.#ask(askedBy(this.#view, this.#camera));
         this.#meter.viewSent(this.#seq, performance.now());
     }
 
@@ -392,13 +437,60 @@ export class Engine {
         this.#report({ kind: "frame", frame });
     }
 
+    /* --- warp --- */
+
+    #warps(): boolean {
+        const latency = this.#meter.latency();
+        return (
+            latency !== null &&
+            latency >= WARP_LATENCY_MS &&
+            this.#view !== null &&
+            mayMove(this.#view, this.#camera) &&
+            this.#presenter.canMove()
+        );
+    }
+
+    /* From the camera of the picture on screen to the page's; null: as it is. */
+    #wayOf(header: FrameHeader): Moved | null {
+        const [asked, view, known] = [this.#asked.get(header.input), this.#view, this.#known];
+        if (
+            !asked ||
+            !view ||
+            known?.input !== header.input ||
+            known.revision !== header.revision ||
+            asked.subject !== askedBy(view, this.#camera).subject ||
+            asked.seen.height !== null ||
+            equalCamera(asked.seen, this.#camera) ||
+            !this.#warps()
+        ) {
+            return null;
+        }
+        const camera = nearCamera(asked.seen, this.#camera);
+        return {
+            depths: known.depths,
+            from: { camera: asked.seen, aspect: header.width / header.height },
+            to: { camera, aspect: view.width / view.height },
+        };
+    }
+
+    /* The picture on screen goes along with the camera. */
+    #follow(): void {
+        const header = this.#shown;
+        const moved = header && this.#wayOf(header);
+        if (header && (moved || this.#moved)) {
+            this.#moved = moved;
+            this.#presenter.move(moved);
+            this.#tell(this.#infoOf(header));
+        }
+    }
+
     #isOutdated(): boolean {
         const shown = this.#asked.get(this.#shown?.input ?? -1);
         return shown !== undefined && shown.looks !== this.#asked.get(this.#seq)?.looks;
     }
 
     #infoOf(header: FrameHeader): FrameInfo {
-        const camera = this.#asked.get(header.input)?.camera ?? null;
+        const camera = this.#moved?.to.camera ?? this.#asked.get(header.input)?.camera ?? null;
         return frameInfo(header, this.#isOutdated(), camera);
     }
 
@@ -410,10 +502,10 @@ export class Engine {
         }
     }
 
-    /* What is meant is what was seen: the view of the frame on screen. */
+    /* What is meant is what was seen: the view of the frame on screen, or what it is warped to. */
     #pick(order: Extract<Order, { kind: "pick" }>): void {
         const { pick, x, y, through } = order;
-        const seq = this.#shown?.input ?? this.#seq;
+        const seq = (this.#moved === null ? this.#shown?.input : undefined) ?? this.#seq;
         this.#send({ type: "pick", pick, x, y, seq, ...(through ? { through } : {}) });
     }
 
@@ -437,7 +529,7 @@ export class Engine {
             return;
         }
         decode(frame).then(
-            (bitmap) => this.#decoded(frame, bitmap, socket),
+            (decoded) => this.#decoded(frame, decoded, socket),
             () => {
                 /* A damaged picture is skipped; without its acknowledgement the stream would stop. */
                 this.#meter.frameDropped();
@@ -452,6 +544,10 @@ export class Engine {
         this.#acknowledge(frame.header.number, socket);
         if (guide !== null && socket === this.#socket) {
             this.#report({ kind: "guide", guide });
+            const { input, revision } = guide;
+            if (input === this.#shown?.input && revision === this.#shown.revision) {
+                this.#known = { input, revision, depths: depthsOfGuide(guide) };
+            }
         }
     }
 
@@ -461,7 +557,8 @@ export class Engine {
         }
     }
 
-    #decoded(frame: Frame, bitmap: ImageBitmap, socket: WebSocket | null): void {
+    #decoded(frame: Frame, decoded: Decoded, socket: WebSocket | null): void {
+        const { bitmap } = decoded;
         const { number } = frame.header;
         const newest = this.#waiting?.frame.header.number ?? this.#shown?.number ?? 0;
         if (socket !== this.#socket || number <= newest) {
@@ -483,7 +580,7 @@ export class Engine {
             this.#meter.frameDropped();
             this.#acknowledge(this.#waiting.frame.header.number, socket);
         }
-        this.#waiting = { frame, bitmap, decodedAt: performance.now() };
+        this.#waiting = { ...decoded, frame, decodedAt: performance.now() };
         if (!scheduled) {
             soon(() => this.#present());
         }
@@ -495,13 +592,18 @@ export class Engine {
             return;
         }
         this.#waiting = null;
-        const { frame, bitmap, decodedAt } = waiting;
-        this.#presenter.show(bitmap, frame.header);
-        this.#shown = frame.header;
-        this.#acknowledge(frame.header.number, this.#socket);
+        const { frame, bitmap, depths, decodedAt } = waiting;
+        const { header } = frame;
+        if (depths) {
+            this.#known = { input: header.input, revision: header.revision, depths };
+        }
+        this.#moved = this.#wayOf(header);
+        this.#presenter.show(bitmap, header, this.#moved);
+        this.#shown = header;
+        this.#acknowledge(header.number, this.#socket);
         this.#meter.frameShown(frame, decodedAt, performance.now());
         this.#forgetAsked();
-        this.#tell(this.#infoOf(frame.header));
+        this.#tell(this.#infoOf(header));
         this.#tick();
     }
 

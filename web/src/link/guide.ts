@@ -2,11 +2,7 @@
 /* Guides from the bytes of their frames. */
 import { DISTANCE_STEP, type Guide } from "../model/guide.ts";
 import type { Frame } from "./decode.ts";
-
-async function inflate(bytes: Blob): Promise<ArrayBuffer> {
-    const stream = bytes.stream().pipeThrough(new DecompressionStream("deflate"));
-    return await new Response(stream).arrayBuffer();
-}
+import { inflate } from "./inflate.ts";
 
 const MOST = 65535;
 

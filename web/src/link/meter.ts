@@ -21,6 +21,8 @@ const WINDOW_MS = 1000;
 const STAGE_FRAMES = 20;
 const FADE = 0.8;
 const PHOTON_SAMPLES = 200;
+/* How many of the last ones say how long the way is now; of fewer than half it is not known. */
+const LATENCY_SAMPLES = 9;
 const VIEWS_KEPT = 512;
 
 function percentile(sorted: readonly number[], share: number): number | null {
@@ -71,6 +73,12 @@ export class Meter {
         ) {
             this.#samples.shift();
         }
+    }
+
+    /* Milliseconds from sending a view to showing it; null: not known yet. */
+    latency(): number | null {
+        const last = this.#photons.slice(-LATENCY_SAMPLES).sort((a, b) => a - b);
+        return 2 * last.length > LATENCY_SAMPLES ? percentile(last, 0.5) : null;
     }
 
     /* A new connection: numbers of frames start again. */

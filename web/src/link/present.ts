@@ -2,6 +2,7 @@
 /* Draws frames on the picture's canvas. The canvas has the size of the view in device pixels
  * whatever the resolution of the frame, so that the picture never changes size or place. */
 import type { FrameHeader } from "./protocol.ts";
+import { type Moved, Warp } from "./warp.ts";
 
 /* The common part of HTMLCanvasElement and OffscreenCanvas. */
 export interface Surface {
@@ -13,7 +14,13 @@ export interface Surface {
 interface Brush {
     imageSmoothingEnabled: boolean;
     imageSmoothingQuality: "low" | "medium" | "high";
-    drawImage(image: ImageBitmap, x: number, y: number, width: number, height: number): void;
+    drawImage(
+        image: ImageBitmap | OffscreenCanvas,
+        x: number,
+        y: number,
+        width: number,
+        height: number,
+    ): void;
     clearRect(x: number, y: number, width: number, height: number): void;
 }
 
@@ -22,6 +29,9 @@ export class Presenter {
     #brush: Brush | null = null;
     #bitmap: ImageBitmap | null = null;
     #header: FrameHeader | null = null;
+    #moved: Moved | null = null;
+    /* Undefined: not asked for yet. */
+    #warp: Warp | null | undefined;
     #width = 1;
     #height = 1;
 
@@ -38,11 +48,24 @@ export class Presenter {
         this.#fit();
     }
 
-    /* Shows a frame; owns the bitmap from now on. */
-    show(bitmap: ImageBitmap, header: FrameHeader): void {
+    /* Shows a frame; owns the bitmap from now on. `moved`: null, as it is. */
+    show(bitmap: ImageBitmap, header: FrameHeader, moved: Moved | null): void {
         this.#bitmap?.close();
         this.#bitmap = bitmap;
         this.#header = header;
+        this.move(moved);
+    }
+
+    canMove(): boolean {
+        if (this.#warp === undefined) {
+            this.#warp = Warp.create();
+        }
+        return this.#warp !== null && !this.#warp.isLost();
+    }
+
+    /* Shows the same frame as another camera sees it. */
+    move(moved: Moved | null): void {
+        this.#moved = moved;
         this.#draw();
     }
 
@@ -50,6 +73,7 @@ export class Presenter {
         this.#bitmap?.close();
         this.#bitmap = null;
         this.#header = null;
+        this.#moved = null;
         this.#brush?.clearRect(0, 0, this.#width, this.#height);
     }
 
@@ -65,6 +89,13 @@ export class Presenter {
     #draw(): void {
         const [brush, bitmap, header] = [this.#brush, this.#bitmap, this.#header];
         if (!brush || !bitmap || !header) {
+            return;
+        }
+        const warped =
+            this.#moved && this.#warp?.draw(bitmap, this.#moved, this.#width, this.#height);
+        if (warped) {
+            brush.imageSmoothingEnabled = false;
+            brush.drawImage(warped, 0, 0, this.#width, this.#height);
             return;
         }
         /* The field of view is vertical: a frame of another view keeps its height. */

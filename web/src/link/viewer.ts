@@ -105,7 +105,7 @@ export class Viewer {
             ...(isolated.length > 0 ? { isolate: isolated } : {}),
             ...sectionMember(section),
         };
-        this.#host.send({ kind: "view", view });
+        this.#host.send({ kind: "view", view, camera });
     }
 
     /* Shows the picture in `element`; answers the function that takes it away. */
