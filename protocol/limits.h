@@ -60,7 +60,7 @@
       "the same of an equation that is no polynomial of polynomial_degree")                        \
     X(POLYNOMIAL_DEGREE, "polynomial_degree", 18, "factors",                                       \
       "an equation that is drawn by its coefficients, at most 1,330")                              \
-    X(SURFACE_ROWS, "surface_rows", 524288, "vectors of four numbers",                             \
+    X(SURFACE_ROWS, "surface_rows", 655360, "vectors of four numbers",                             \
       "patches of all parametric surfaces, each with its tree and grid")                           \
     X(EQUATION_WEIGHT, "equation_weight", 16384, "operations",                                     \
       "an equation with all definitions written out")                                              \

@@ -3,6 +3,12 @@
 
 #include "params.glsl"
 
+/* Of lanes that run together, as the engine's do. A shader's are apart. */
+#ifndef ANY_LANE
+#define ANY_LANE(x) (x)
+#define FIRST_LANE(x) (x)
+#endif
+
 /* The coefficients of one power of u: those of all powers of v, for each coordinate. */
 struct PatchRow {
     vec4 x, y, z;
@@ -60,27 +66,92 @@ float patch_near(vec3 p, int at, vec2 uv)
 {
     PatchRow a = patch_row(at), b = patch_row(at + 3), c = patch_row(at + 6), d = patch_row(at + 9);
     for (int i = 0; i < 3; i++) {
+        vec2 from = uv;
         uv = patch_step(p, a, b, c, d, uv);
+        vec2 moved = abs(uv - from);
+        if (max(moved.x, moved.y) < 0.05) {
+            break;
+        }
     }
     vec3 e = p - patch_point(a, b, c, d, uv);
     return dot(e, e);
 }
 
-/* The distance to the nearest patch, from what a corner of the grid knows. */
+/* The same, or `best` where that is less. From five places of a bent patch. */
+float patch_nearer(vec3 p, int at, bool again, float best)
+{
+    vec4 middle = P_FROM(at + 12), first = P_FROM(at + 13), second = P_FROM(at + 14);
+    int begins = second.w < 0.0 ? 4 : again ? -1 : 0;
+    vec3 e = p - middle.xyz, half_size = vec3(middle.w, first.w, abs(second.w));
+    vec3 place = vec3(dot(e, first.xyz), dot(e, second.xyz),
+                      dot(e, cross(first.xyz, second.xyz)));
+    vec3 away = max(abs(place) - half_size, 0.0);
+    if (dot(away, away) < best) {
+        for (int i = begins; i >= 0; i--) {
+            vec2 uv = vec2(i == 1 || i == 3 ? 0.25 : 0.75, i > 2 ? 0.25 : 0.75);
+            if (i == 0) {
+                uv = clamp(0.5 + 0.5 * place.xy / half_size.xy, 0.0, 1.0);
+            }
+            best = min(best, patch_near(p, at, uv));
+        }
+    }
+    return best;
+}
+
+/* The square of the distance to the patch that a corner of the grid knows. Lanes that have the same
+ * one go together: its numbers are fetched once for all of them. */
+float patches_begin(vec3 p, int first, vec4 seed)
+{
+    float best = 0.0;
+    for (int waits = 1; waits > 0;) {
+        int one = FIRST_LANE(int(seed.y));
+        if (one == int(seed.y)) {
+            best = patch_near(p, first + 15 * one, seed.zw);
+            waits = 0;
+        }
+    }
+    return best;
+}
+
+/* The distance to the nearest patch, from what a corner of the grid knows. All lanes go through the
+ * nodes that one of them asks for; `next` is the node that a lane waits for. After 256 nodes boxes
+ * stand for what is in them. */
 float patches_search(vec3 p, int tree, int nodes, vec4 seed)
 {
-    int first = tree + 2 * nodes, i = 0;
-    float best = patch_near(p, first + 12 * int(seed.y), seed.zw);
-    for (int left = 256; left > 0 && i < nodes; left--) {
+    int first = tree + 2 * nodes, next = 0, left = 256;
+    float best = patches_begin(p, first, seed);
+    for (int i = 0; i < nodes;) {
         vec4 low = P_FROM(tree + 2 * i), high = P_FROM(tree + 2 * i + 1);
         vec3 away = max(max(low.xyz - p, p - high.xyz), 0.0);
-        bool near = dot(away, away) < best;
-        if (near && high.w >= 0.0) {
-            best = min(best, patch_near(p, first + 12 * int(high.w), vec2(0.5)));
+        float square = dot(away, away);
+        bool here = i >= next, down = here && square < best;
+        if (high.w >= 0.0) {
+            if (down) {
+                int one = int(high.w);
+                best = patch_nearer(p, first + 15 * one, one == int(seed.y), best);
+            }
+            down = false;
+        } else if (down && left <= 0) {
+            best = square;
+            down = false;
         }
-        i = near ? i + 1 : int(low.w);
+        left -= here ? 1 : 0;
+        next = down ? next : max(next, int(low.w));
+        i = ANY_LANE(down) ? i + 1 : max(int(low.w), i + 1);
     }
     return sqrt(best);
+}
+
+/* What the corners of a cell tell, interpolated. */
+float patches_mean(int first, int row, int layer, vec3 f)
+{
+    vec4 near = vec4(P_FROM(first).x, P_FROM(first + row).x, P_FROM(first + layer).x,
+                     P_FROM(first + row + layer).x);
+    vec4 next = vec4(P_FROM(first + 1).x, P_FROM(first + row + 1).x, P_FROM(first + layer + 1).x,
+                     P_FROM(first + row + layer + 1).x);
+    vec4 edges = near + (next - near) * f.x;
+    vec2 faces = edges.xz + (edges.yw - edges.xz) * f.y;
+    return faces.x + (faces.y - faces.x) * f.z;
 }
 
 /* In the grid. */
@@ -92,21 +163,23 @@ float patches_within(vec3 p, int at, vec4 low)
     vec3 f = place - cell;
     int row = int(along.x), layer = row * int(along.y);
     int corners = at + 4, first = corners + int(cell.x) + row * int(cell.y) + layer * int(cell.z);
-    vec4 near = vec4(P_FROM(first).x, P_FROM(first + row).x, P_FROM(first + layer).x,
-                     P_FROM(first + row + layer).x);
-    vec4 next = vec4(P_FROM(first + 1).x, P_FROM(first + row + 1).x, P_FROM(first + layer + 1).x,
-                     P_FROM(first + row + layer + 1).x);
-    vec4 edges = near + (next - near) * f.x;
-    vec2 faces = edges.xz + (edges.yw - edges.xz) * f.y;
-    float mean = faces.x + (faces.y - faces.x) * f.z;
+    float mean = 0.0;
+    for (int waits = 1; waits > 0;) {
+        int one = FIRST_LANE(first);
+        if (first == one) {
+            mean = patches_mean(one, row, layer, f);
+            waits = 0;
+        }
+    }
     float far = max(mean - band.z, 0.0);
     float share = clamp((mean - band.x) * band.y, 0.0, 1.0);
-    if (share == 1.0) {
-        return far;
+    if (share < 1.0) {
+        int seed =
+            first + (f.x > 0.5 ? 1 : 0) + (f.y > 0.5 ? row : 0) + (f.z > 0.5 ? layer : 0);
+        float exact = patches_search(p, corners + int(along.w), int(band.w), P_FROM(seed));
+        far = exact + (far - exact) * share;
     }
-    int seed = first + (f.x > 0.5 ? 1 : 0) + (f.y > 0.5 ? row : 0) + (f.z > 0.5 ? layer : 0);
-    float exact = patches_search(p, corners + int(along.w), int(band.w), P_FROM(seed));
-    return exact + (far - exact) * share;
+    return far;
 }
 
 float patches(vec3 p, int at)

@@ -7,11 +7,16 @@
 
 #include "protocol/memory.h"
 
-enum { STEPS = 3 }; /* of Newton */
+enum {
+    STEPS = 3,    /* of Newton, at most */
+    BOX_ROW = 12, /* of a patch */
+};
+#define SMALL 0.05 /* a step after which the next one makes no difference */
+#define BENT 0.9   /* cosine: patches that turn by more may have several nearest points */
 
 /* Of the grid, in cubes. */
-#define BAND_BEGIN 1.5 /* so near all is exact */
-#define BAND_WIDTH 0.75
+#define BAND_BEGIN 1.3 /* so near all is exact */
+#define BAND_WIDTH 0.5
 #define MARGIN 1.5 /* around the sheet */
 #define FAR_AWAY 1e9
 /* Of their distance, what corners tell less, where they are farther than twice EXACT cubes. */
@@ -34,7 +39,7 @@ size_t patches_rows(int levels)
 
 int patches_trips(void)
 {
-    return PATCHES_VISITS + STEPS * 8;
+    return PATCHES_VISITS + 3 * PATCHES_LEVELS_MAX + STEPS * 8;
 }
 
 /* --- where numbers lie --- */
@@ -110,15 +115,73 @@ static void step(const double p[3], double at[ORDERS][3], double uv[2])
 /* The square of the distance; `uv` is where to begin, and then where it is. */
 static double patch_near(const double p[3], const double *n, double uv[2])
 {
-    double at[ORDERS][3];
+    double at[ORDERS][3], way = 1;
 
-    for (int i = 0; i < STEPS; i++) {
+    for (int i = 0; i < STEPS && way >= SMALL; i++) {
+        const double from[2] = {uv[0], uv[1]};
         patch_at(n, uv, at);
         step(p, at, uv);
+        way = fmax(fabs(uv[0] - from[0]), fabs(uv[1] - from[1]));
     }
     patch_at(n, uv, at);
     const double e[3] = {p[0] - at[POINT][0], p[1] - at[POINT][1], p[2] - at[POINT][2]};
     return dot(e, e);
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        out[i] = a[j] * b[k] - a[k] * b[j];
+    }
+}
+
+/* The square of the distance to the box along the patch's own axes, at most. `uv` is about where
+ * the nearest point is. */
+static double own_box_square(const double p[3], const double *patch, double uv[2])
+{
+    const double *box = patch + (size_t)(4 * BOX_ROW);
+    const double e[3] = {p[0] - box[0], p[1] - box[1], p[2] - box[2]};
+    double third[3], square = 0;
+
+    cross(box + 4, box + 8, third);
+    const double place[3] = {dot(e, box + 4), dot(e, box + 8), dot(e, third)};
+    for (int i = 0; i < 3; i++) {
+        const double out = fmax(fabs(place[i]) - fabs(box[4 * i + 3]), 0);
+        square += out * out;
+    }
+    for (int i = 0; i < 2; i++) {
+        uv[i] = clamp(0.5 + 0.5 * place[i] / box[4 * i + 3], 0, 1);
+    }
+    return square;
+}
+
+static bool is_bent(const double *patch)
+{
+    return patch[4 * BOX_ROW + 11] < 0;
+}
+
+/* The square of the distance to a patch, or `best` where that is less; `uv` is where. A bent patch
+ * may have several nearest points, so that the search begins at five places. */
+static double patch_nearer(const double p[3], const double *patch, double best, double uv[2])
+{
+    double begin[2];
+
+    if (own_box_square(p, patch, begin) >= best) {
+        return best;
+    }
+    for (int i = is_bent(patch) ? 4 : 0; i >= 0; i--) {
+        double at[2] = {i % 2 ? 0.25 : 0.75, i > 2 ? 0.25 : 0.75};
+        if (i == 0) {
+            memcpy(at, begin, sizeof at);
+        }
+        const double square = patch_near(p, patch, at);
+        if (square < best) {
+            best = square;
+            memcpy(uv, at, sizeof at);
+        }
+    }
+    return best;
 }
 
 static double box_square(const double p[3], const double *node)
@@ -141,23 +204,30 @@ static double trilinear(const double d[8], const double f[3])
     return low + (high - low) * f[2];
 }
 
-/* From the corner `seed`. */
+/* From the corner `seed`. What is not looked at counts as if its boxes were full. */
 static double search(const double p[3], const double *tree, int nodes, const double *patches,
                      const double seed[4])
 {
+    const int begin = (int)seed[1];
     double uv[2] = {seed[2], seed[3]};
-    double best = patch_near(p, patches + (size_t)(4 * PATCH_ROWS) * (size_t)seed[1], uv);
-    int i = 0;
+    double best = patch_near(p, patches + (size_t)(4 * PATCH_ROWS * begin), uv);
+    int left = PATCHES_VISITS;
 
-    for (int left = PATCHES_VISITS; left > 0 && i < nodes; left--) {
+    for (int i = 0; i < nodes; left--) {
         const double *node = tree + (size_t)(8 * i);
-        const bool near = box_square(p, node) < best;
-        if (near && node[7] >= 0) {
-            uv[0] = uv[1] = 0.5;
-            best =
-                fmin(best, patch_near(p, patches + (size_t)(4 * PATCH_ROWS) * (size_t)node[7], uv));
+        const double square = box_square(p, node);
+        bool down = square < best;
+        if (down && node[7] >= 0) {
+            const double *patch = patches + (size_t)(4 * PATCH_ROWS * (int)node[7]);
+            if ((int)node[7] != begin || is_bent(patch)) {
+                best = patch_nearer(p, patch, best, uv);
+            }
+            down = false;
+        } else if (down && left <= 0) {
+            best = square;
+            down = false;
         }
-        i = near ? i + 1 : (int)node[3];
+        i = down ? i + 1 : (int)node[3];
     }
     return sqrt(best);
 }
@@ -265,8 +335,8 @@ static void bicubic(const double *points, int across, int axis, double out[4][4]
     }
 }
 
-/* What a polynomial is between at most, and at least: by its form of Bernstein. */
-static void widen_by(double c[4][4], double *low, double *high)
+/* The points whose hull a polynomial lies in: its form of Bernstein. */
+static void control(double c[4][4], double out[4][4])
 {
     /* x^k = the sum of C(i, k) / C(3, k) of the Bernstein polynomials i. */
     static const double to[4][4] = {
@@ -274,16 +344,93 @@ static void widen_by(double c[4][4], double *low, double *high)
 
     for (int i = 0; i < 4; i++) {
         for (int j = 0; j < 4; j++) {
-            double sum = 0;
+            out[i][j] = 0;
             for (int k = 0; k <= i; k++) {
                 for (int l = 0; l <= j; l++) {
-                    sum += to[i][k] * to[j][l] * c[k][l];
+                    out[i][j] += to[i][k] * to[j][l] * c[k][l];
                 }
             }
-            *low = fmin(*low, sum);
-            *high = fmax(*high, sum);
         }
     }
+}
+
+static bool normalize(double v[3])
+{
+    const double length = sqrt(dot(v, v));
+
+    for (int i = 0; i < 3; i++) {
+        v[i] /= length;
+    }
+    return length > 1e-12 && isfinite(length);
+}
+
+/* Along u, and at right angles to it along the patch. */
+static void own_axes(const double *patch, double first[3], double second[3])
+{
+    double at[ORDERS][3], normal[3];
+
+    patch_at(patch, (const double[]){0.5, 0.5}, at);
+    memcpy(first, at[BY_U], sizeof at[BY_U]);
+    cross(at[BY_U], at[BY_V], normal);
+    cross(normal, at[BY_U], second);
+    if (!normalize(first) || !normalize(second)) {
+        memcpy(first, (const double[]){1, 0, 0}, 3 * sizeof *first);
+        memcpy(second, (const double[]){0, 1, 0}, 3 * sizeof *second);
+    }
+    for (int i = 0; i < 3; i++) {
+        first[i] = (float)first[i];
+        second[i] = (float)second[i];
+    }
+}
+
+/* Whether what goes along a parameter turns a lot, from the middle of the patch on. */
+static bool is_bending(const double *patch)
+{
+    double middle[ORDERS][3], at[ORDERS][3];
+
+    patch_at(patch, (const double[]){0.5, 0.5}, middle);
+    for (int i = 0; i < 25; i++) {
+        patch_at(patch, (const double[]){0.25 * (i % 5), 0.05 * (i - i % 5)}, at);
+        for (int way = BY_U; way <= BY_V; way++) {
+            const double here = sqrt(dot(at[way], at[way]));
+            const double there = sqrt(dot(middle[way], middle[way]));
+            if (here > 0.01 * there && dot(at[way], middle[way]) < BENT * here * there) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* A little larger, for what floats leave. */
+static void write_own_box(double points[3][4][4], double *patch)
+{
+    double *box = patch + (size_t)(4 * BOX_ROW), axes[3][3], middle[3] = {0}, half[3], size = 0;
+
+    own_axes(patch, axes[0], axes[1]);
+    cross(axes[0], axes[1], axes[2]);
+    for (int a = 0; a < 3; a++) {
+        double low = INFINITY, high = -INFINITY;
+        for (int i = 0; i < 16; i++) {
+            const double x = points[0][i / 4][i % 4], y = points[1][i / 4][i % 4];
+            const double z = points[2][i / 4][i % 4];
+            const double along = axes[a][0] * x + axes[a][1] * y + axes[a][2] * z;
+            low = fmin(low, along);
+            high = fmax(high, along);
+            size = fmax(size, fmax(fabs(x), fmax(fabs(y), fabs(z))));
+        }
+        half[a] = (high - low) / 2;
+        for (int i = 0; i < 3; i++) {
+            middle[i] += axes[a][i] * (low + high) / 2;
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        box[i] = (float)middle[i];
+        box[4 + i] = axes[0][i];
+        box[8 + i] = axes[1][i];
+        box[4 * i + 3] = (float)(half[i] + 1e-6 * size + 1e-30);
+    }
+    box[11] *= is_bending(patch) ? -1 : 1;
 }
 
 static bool is_whole(const double *points, int across)
@@ -298,9 +445,11 @@ static bool is_whole(const double *points, int across)
     return true;
 }
 
-/* A patch of the tree's order and the box around it, of a leaf. */
+/* A patch of the tree's order, and the box around it, of a leaf. */
 static void write_patch(const double *points, int across, double *out, double *node)
 {
+    double around[3][4][4];
+
     for (int axis = 0; axis < 3; axis++) {
         double c[4][4];
         bicubic(points, across, axis, c);
@@ -309,8 +458,13 @@ static void write_patch(const double *points, int across, double *out, double *n
                 c[i][j] = out[12 * i + 4 * axis + j] = (float)c[i][j];
             }
         }
-        widen_by(c, &node[axis], &node[4 + axis]);
+        control(c, around[axis]);
+        for (int i = 0; i < 16; i++) {
+            node[axis] = fmin(node[axis], around[axis][i / 4][i % 4]);
+            node[4 + axis] = fmax(node[4 + axis], around[axis][i / 4][i % 4]);
+        }
     }
+    write_own_box(around, out);
 }
 
 /* --- the tree --- */
@@ -408,12 +562,10 @@ static void find_corner(const struct corner_search *s, const double p[3], const 
             i = (int)node[3];
             continue;
         }
-        uv[0] = uv[1] = 0.5;
+        const double *patch = s->patches + (size_t)(4 * PATCH_ROWS) * (size_t)fmax(node[7], 0);
         const double square =
-            node[7] < 0
-                ? INFINITY
-                : patch_near(p, s->patches + (size_t)(4 * PATCH_ROWS) * (size_t)node[7], uv);
-        if (square < best) {
+            node[7] < 0 ? INFINITY : patch_nearer(p, patch, part * part * best, uv);
+        if (node[7] >= 0 && square < part * part * best) {
             best = square;
             part = 1 - far_part(s, sqrt(best));
             memcpy(out, (const double[]){0, node[7], uv[0], uv[1]}, 4 * sizeof *out);

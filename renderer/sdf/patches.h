@@ -5,12 +5,15 @@
  *
  * A sheet is all that is at most half of its thickness away from a patch. Its distance is that to
  * the nearest patch, less half of the thickness. The nearest point of one patch is found by steps
- * of Newton's method in its square of parameters; which patches are asked, by a tree of boxes over
- * the two parameters: a box that is no nearer than what is found leaves out all that is in it.
+ * of Newton's method in its square of parameters, one or two for most; of a bent patch from five
+ * places, because it may have several. Which patches are asked, by a tree of boxes over the two
+ * parameters, and by a box along the axes of each patch, which is flat where the patch is: a box
+ * that is no nearer than what is found leaves out all that is in it. After PATCHES_VISITS nodes,
+ * which only patches that lie in each other take, boxes stand for what is in them.
  *
  * Around the patches is a grid whose corners know their distance and their nearest point. From the
  * one nearest to a point the search begins, so that it asks few patches. Farther away than about
- * two cells nothing is searched: with I the distances of the corners, interpolated, and s the side
+ * 1.8 cells nothing is searched: with I the distances of the corners, interpolated, and s the side
  * of a cube, the distance d has I - d <= 3 s^2 / 8 d. (A corner c is at most |c - x| away from the
  * point x that is nearest to p. By the square root's tangent |c - x| is at most d + (p - x)(c - p)
  * / d + |c - p|^2 / 2 d, and the middle terms of the corners cancel.) So d is at least (I +
@@ -37,10 +40,12 @@
  *     for each corner: (distance, number of the nearest patch, u and v there)
  *     for each node of the tree, parents first: (least corner of its box, next node outside of it),
  *     (greatest corner, number of its patch, or -1)
- *     for each patch: for each power of u: (x of the powers of v), (y ...), (z ...). */
+ *     for each patch: for each power of u: (x of the powers of v), (y ...), (z ...); its box:
+ *     (middle, half of its length along the first axis), (first axis, half along the second),
+ *     (second axis, half along the third, less than 0 of a bent patch). */
 enum {
     PATCHES_HEAD = 4,
-    PATCH_ROWS = 12,
+    PATCH_ROWS = 15,
     PATCHES_LEVELS_MIN = 4,
     PATCHES_LEVELS_MAX = 6,
     PATCHES_VISITS = 256, /* nodes of the tree that a search looks at, at most */

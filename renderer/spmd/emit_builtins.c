@@ -35,6 +35,8 @@ static const struct spmd_builtin builtins[] = {
     {"textureSize", GIVES_IVEC2, WRITTEN_SPECIAL},
     /* Number i of the scene's vec4s, and of the instruction's own. */
     {"param", GIVES_VEC4, WRITTEN_SPECIAL}, {"own_param", GIVES_VEC4, WRITTEN_SPECIAL},
+    /* Whether it is so in a lane of those that are here, and what the first of them has. */
+    {"any_lane", GIVES_SAME, WRITTEN_SPECIAL}, {"first_lane", GIVES_SAME, WRITTEN_SPECIAL},
 };
 /* clang-format on */
 
@@ -46,6 +48,11 @@ const struct spmd_builtin *spmd_builtin_find(const char *name)
         }
     }
     return NULL;
+}
+
+bool spmd_builtin_joins(const char *name)
+{
+    return strcmp(name, "any_lane") == 0 || strcmp(name, "first_lane") == 0;
 }
 
 enum { ARGS_MAX = 4 };
@@ -240,6 +247,19 @@ static struct value param(struct emit *e, const struct value *args, const char *
     return out;
 }
 
+/* One number of all lanes. */
+static struct value any_lane(struct emit *e, const struct value *args)
+{
+    return one(
+        e, emit_temp(e, BASE_BOOL, false, "lanes_any(m & %s)", emit_spread(e, args[0].at[0]).text));
+}
+
+static struct value first_lane(struct emit *e, const struct value *args)
+{
+    return one(e, emit_temp(e, args[0].at[0].base, false, "(%s)[lanes_first(m)]",
+                            emit_spread(e, args[0].at[0]).text));
+}
+
 static struct value special(struct emit *e, const char *name, const struct value *args)
 {
     static const struct {
@@ -252,6 +272,8 @@ static struct value special(struct emit *e, const char *name, const struct value
                 {"reflect", reflect},
                 {"cross", cross},
                 {"mix", mix},
+                {"any_lane", any_lane},
+                {"first_lane", first_lane},
                 {"textureLod", texture_lod},
                 {"textureSize", texture_size},
                 {"texelFetch", texel_fetch}};

@@ -21,7 +21,8 @@ static const struct glsl_file own[] = {
     {"field_surface.glsl", "#include \"surface.glsl\"\n"
                            "void surface(vec3 p, Shading at, out Surface s);\n"},
     {"params.glsl", "#define P(i) own_param(i)\n#define P_ANY(i) param(i)\n"
-                    "#define P_FROM(i) own_param(i)\n"},
+                    "#define P_FROM(i) own_param(i)\n"
+                    "#define ANY_LANE(x) any_lane(x)\n#define FIRST_LANE(x) first_lane(x)\n"},
     {NULL, NULL},
 };
 

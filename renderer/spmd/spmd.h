@@ -43,6 +43,8 @@ struct spmd_builtin {
     enum written written;
 };
 
+/* It gives one value to all lanes, whatever their arguments are. */
+bool spmd_builtin_joins(const char *name);
 /* NULL: none. */
 const struct spmd_builtin *spmd_builtin_find(const char *name);
 

@@ -84,6 +84,9 @@ static void vary_value(struct vary *v, struct expr *expr)
         vary_call(v, expr);
         return;
     }
+    if (expr->kind == EXPR_BUILTIN && spmd_builtin_joins(expr->name->text)) {
+        return;
+    }
     if (expr->kind == EXPR_VARIABLE) {
         any = expr->variable->varying;
     }

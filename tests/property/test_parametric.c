@@ -120,7 +120,7 @@ static void distances_are_those_of_closed_forms(void **state)
             double p[3];
             random_point(&random, n % 2 ? 1.2 : 2.5, p);
             const double want = row->distance(p) - THICKNESS / 2, got = field_distance(field, p);
-            const bool close = want < 0.06;
+            const bool close = want < 0.04;
             near += close;
             if (got > want + row->tolerance || (close && got < want - row->tolerance) ||
                 got < fmin(0.6 * want, want) - row->tolerance) {
