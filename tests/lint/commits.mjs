@@ -11,7 +11,7 @@ const RULE_AFTER = 'a135d9c831e72f02538eaa27d43cac755d1ac0bb';
 const VERBS = new Set(
     `abort accept act adapt add adjust advance align allow answer apply ask assert attach avoid back balance batch
     begin bend bind block bound break bring build bump bundle cache call cancel carry cast catch change check
-    choose clamp clarify clean clear clip clone close collapse collect color combine compare compile complete compress
+    choose clamp clarify clean clear clip clone close collapse collect color colour combine compare compile complete compress
     compute confine configure connect consider convert copy correct count cover create cross cut deal decide declare
     decode define delay delete deny derive describe detach detect disable discard display distinguish divide document
     download draw drive drop edit embed empty enable encode end enforce ensure erase escape estimate evaluate exclude

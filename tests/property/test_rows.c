@@ -102,6 +102,9 @@ static cJSON *another_value(const struct param *param, const cJSON *now)
     if (param->type == PARAM_BOOL) {
         return cJSON_CreateBool(!cJSON_IsTrue(now));
     }
+    if (param->type == PARAM_EQUATION) {
+        return cJSON_CreateString("x");
+    }
     if (param_components(param->type) == 1) {
         return cJSON_CreateNumber(another(param, now->valuedouble, 0));
     }
@@ -144,19 +147,23 @@ static cJSON *plain_row(const struct record_type *type)
     return row;
 }
 
-/* Makes `name=value` or `name!=value` true. */
+/* Makes `name=value`, `name!=value` or `name~letter` true. */
 static void fulfil(const struct record_type *type, cJSON *row, const char *when)
 {
-    const char *value = strchr(when, '=') + 1;
-    char name[40];
+    const size_t end = strcspn(when, "!=~");
+    const char *value = when + end + (when[end] == '!' ? 2 : 1);
+    char name[40], sum[40];
 
-    snprintf(name, sizeof name, "%.*s", (int)strcspn(when, "!="), when);
+    snprintf(name, sizeof name, "%.*s", (int)end, when);
+    snprintf(sum, sizeof sum, "x + %s", value);
     const struct param *param = &type->params[record_type_find(type, name)];
     if (strstr(when, "!=")) {
         assert_non_null(cJSON_GetObjectItem(row, name)); /* plain_row knows a value */
     } else if (param->type == PARAM_ENUM) {
         cJSON_DeleteItemFromObject(row, name);
         cJSON_AddStringToObject(row, name, value);
+    } else if (param->type == PARAM_EQUATION) {
+        cJSON_AddStringToObject(row, name, sum);
     }
 }
 
