@@ -101,3 +101,33 @@ test('is found for a parametric surface, which is proved, and drawn as one edit'
     await page.keyboard.press('Control+z');
     await documentWhen(stage, id, (d) => nodeIn(d, 'it').params?.equation !== 'x^2+y^2-z-1 = 0', 'undo');
 });
+
+test('of colours of a material follows what is typed, and says where it is wrong', async () => {
+    const materials = { tint: { shader: 'map', properties: { lines: 0 } } };
+    const root = { id: 'it', type: 'sphere', material: 'tint' };
+    id = await stage.scene({ ...EMPTY, materials, root });
+    page = await stage.page({ scene: id });
+    await settled(page);
+    await page.locator('[data-resource=tint] .resource-pick').click();
+    const byHeight = await stillPixels(page);
+    const typed = page.getByRole('textbox', { name: 'function' });
+    const functionIs = (wanted) => documentWhen(stage, id, (d) => d.materials.tint.properties.function === wanted, wanted);
+
+    await typed.click();
+    await page.keyboard.type('a*x', { delay: 20 });
+    await functionIs('a*x');
+    await pictureChanged(page, byHeight, 'colours from left to right');
+    await settled(page);
+    const byWidth = await stillPixels(page);
+
+    page.expected = /compile/;
+    await page.keyboard.type(' + q');
+    await page.locator('.equation-mark mark').getByText('q', { exact: true }).waitFor();
+    assert.ok(difference(await stillPixels(page), byWidth) <= 1, 'the last good picture stays');
+    await typed.fill('a*x');
+    await page.keyboard.press('Enter');
+    await page.locator('.equation-mark mark').waitFor({ state: 'detached' });
+    await field(page, 'a').fill('-1');
+    await page.keyboard.press('Enter');
+    await pictureChanged(page, byWidth, 'colours from right to left');
+});
