@@ -57,7 +57,7 @@ enum {
     OBJECTS = 4096,
     EAT_BYTES = 1 << 20,
     GROUP_MS = 10,
-    HARD_GROUP_MS = 250,
+    HARD_GROUP_MS = 500,
     LATE_MS = 1000, /* of compiling */
     HANG_RATE = 10,
     NS = 1000000000

@@ -32,7 +32,7 @@ const CRASH = ball('31338.5');
 const HANG_ONCE = ball('31341.5');
 const HANG_TWICE = ball('31342.5');
 const DRAW_SLOWLY = ball('31344.5'); // 10 ms for each 8 × 8 pixels in each pass
-const DRAW_HARDLY = ball('31345.5'); // 250 ms
+const DRAW_HARDLY = ball('31345.5'); // 500 ms
 const DRAW_HARDLY_LATE = ball('31347.5'); // compiled when the engine has drawn for a while
 
 const scene = (code) => ({
