@@ -261,6 +261,27 @@ static void a_map_has_its_lines(void **state)
     pair_finish(&pair);
 }
 
+static uint64_t structure_of(const char *properties)
+{
+    char materials[200];
+
+    snprintf(materials, sizeof materials, "'materials':{'m':{'shader':'map','properties':%s}},",
+             properties);
+    struct pair pair = pair_of(materials, "{'type':'sphere','material':'m'}");
+    const uint64_t hash = pair.field->structure_hash;
+    pair_finish(&pair);
+    return hash;
+}
+
+static void numbers_of_a_map_compile_nothing(void **state)
+{
+    (void)state;
+    const uint64_t one = structure_of("{'function':'a*x'}");
+
+    assert_true(structure_of("{'function':'a*x','a':3,'from':-2,'lines':0,'slope':true}") == one);
+    assert_true(structure_of("{'function':'a*y'}") != one);
+}
+
 static void a_function_that_cannot_be_read_has_its_place(void **state)
 {
     (void)state;
@@ -492,6 +513,7 @@ int main(void)
         cmocka_unit_test(colours_of_ours_agree),
         cmocka_unit_test(maps_have_the_colours_of_their_functions),
         cmocka_unit_test(a_map_has_its_lines),
+        cmocka_unit_test(numbers_of_a_map_compile_nothing),
         cmocka_unit_test(a_function_that_cannot_be_read_has_its_place),
         cmocka_unit_test(a_face_between_two_cubes_has_the_inner_colour),
         cmocka_unit_test(only_code_of_users_is_theirs),
