@@ -11,6 +11,9 @@ const CLOSE = 8;
 const PING = 9;
 const PONG = 10;
 
+/** Milliseconds as Date.now() has them, with fractions. */
+export const now = () => performance.timeOrigin + performance.now();
+
 export function encodeMessage(opcode, payload) {
     const mask = crypto.randomBytes(4);
     const head =
@@ -185,7 +188,7 @@ export class Live {
                 const whole = Buffer.concat(this.fragments);
                 this.fragments = [];
                 if (this.opcode === TEXT) {
-                    this.messages.push({ at: Date.now(), ...JSON.parse(whole.toString()) });
+                    this.messages.push({ at: now(), ...JSON.parse(whole.toString()) });
                 } else {
                     this.takePart(whole);
                 }
@@ -202,7 +205,7 @@ export class Live {
             const end = pngAt + bytes.readUInt32LE(at + 8);
             this.thumbnails.push({
                 ...header,
-                at: Date.now(),
+                at: now(),
                 kind: ['node', 'material'][bytes[at]],
                 id: bytes.subarray(idAt, pngAt).toString(),
                 width: bytes.readUInt16LE(at + 2),
@@ -227,7 +230,7 @@ export class Live {
         }
         if (magic === 'FCF1') {
             const header = readFrameHeader(bytes);
-            this.frame = { ...header, at: Date.now(), parts: [bytes.subarray(40 + 4 * header.stagesUs.length)], got: 0 };
+            this.frame = { ...header, at: now(), parts: [bytes.subarray(40 + 4 * header.stagesUs.length)], got: 0 };
         } else if (magic !== 'FCFP' || bytes.readUInt32LE(4) !== this.frame?.number) {
             throw new Error(`a binary message starts with ${magic}`);
         } else {
