@@ -15,6 +15,7 @@
 enum {
     SLICE_PIXELS = 1 << 16, /* encoded at a time: some 8 ms of PNG */
     FULL_BYTES = 32 << 20,
+    SMALL_PIXELS = 1 << 16, /* a JPEG of them takes less time than a thread takes to wake up */
 };
 
 enum lane { LANE_URGENT, LANE_PATIENT, LANES };
@@ -35,6 +36,7 @@ struct work {
     struct rows *rows; /* the oldest first */
     size_t waiting_bytes;
     uint64_t pixels; /* of the whole picture */
+    bool is_small;   /* its owner encodes it */
     bool ended, whole, failed;
     struct work *next;
 };
@@ -104,7 +106,7 @@ static struct work *find_next(const struct encode_thread *encode_thread, enum la
     struct work *best = NULL;
 
     for (struct work *work = encode_thread->works; work; work = work->next) {
-        if (lane_of(work) == lane && (work->rows || work->ended) &&
+        if (!work->is_small && lane_of(work) == lane && (work->rows || work->ended) &&
             (!best || is_before(work, best))) {
             best = work;
         }
@@ -154,8 +156,8 @@ static void finish(struct encode_thread *encode_thread, struct work *work)
     wake_owner(encode_thread);
 }
 
-/* One step of a picture, without the lock. */
-static void encode(struct encode_thread *encode_thread, struct work *work)
+/* One step of a picture, without the lock. False: it was the last. */
+static bool encode(struct encode_thread *encode_thread, struct work *work)
 {
     struct rows *rows = work->rows;
     const bool wanted = !work->ended || work->whole;
@@ -172,10 +174,13 @@ static void encode(struct encode_thread *encode_thread, struct work *work)
     pthread_mutex_lock(&encode_thread->lock);
     if (!wanted || !rows || work->failed) {
         finish(encode_thread, work);
-    } else if (rows->taken == rows->image.height) {
+        return false;
+    }
+    if (rows->taken == rows->image.height) {
         drop_rows(work);
         wake_owner(encode_thread);
     }
+    return true;
 }
 
 static void serve(struct encode_thread *encode_thread, enum lane lane)
@@ -280,6 +285,7 @@ struct encoding *encode_thread_begin(struct encode_thread *encode_thread,
     for (int i = 0; i < AOV_COUNT; i++) {
         work->pixels += (uint64_t)shapes[i].width * (uint64_t)shapes[i].height;
     }
+    work->is_small = params->format == CODEC_JPEG && work->pixels <= SMALL_PIXELS;
     work->result.priority = priority;
     work->result.data = data;
     pthread_mutex_lock(&encode_thread->lock);
@@ -317,6 +323,8 @@ void encode_thread_end(struct encode_thread *encode_thread, struct encoding *enc
     pthread_mutex_lock(&encode_thread->lock);
     work->ended = true;
     work->whole = whole;
+    while (work->is_small && encode(encode_thread, work)) {
+    }
     pthread_cond_broadcast(&encode_thread->change);
     pthread_mutex_unlock(&encode_thread->lock);
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Threads that encode pictures as their rows come, so that a large one holds up neither drawing nor
  * answers. Urgent pictures have one of their own; the other one leaves the processors to those who
- * draw. After a few rows of one picture each looks whether another goes first. */
+ * draw. After a few rows of one picture each looks whether another goes first. A small JPEG is
+ * encoded by its owner, at its end. */
 #ifndef RENDERER_ENCODE_THREAD_H
 #define RENDERER_ENCODE_THREAD_H
 

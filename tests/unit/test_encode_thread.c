@@ -17,7 +17,7 @@
 #include "protocol/memory.h"
 #include "renderer/encode_thread.h"
 
-enum { WIDTH = 640, HEIGHT = 90, BAND = 30 };
+enum { WIDTH = 640, HEIGHT = 120, BAND = 30 }; /* too many for the owner to encode */
 
 static int wake_fd;
 static struct encode_thread *encode_thread;
@@ -260,7 +260,7 @@ static void urgent_encodings_come_first(void **state)
     (void)state;
     sem_init(&stuck, 0, 0);
     sem_init(&let_go, 0, 0);
-    add(slow, &image, 0, HEIGHT);
+    add(slow, &image, 0, BAND);
     encode_thread_end(encode_thread, slow, true);
     sem_wait(&stuck);
     struct encoding *urgent = begin(&image, &params);
@@ -275,6 +275,30 @@ static void urgent_encodings_come_first(void **state)
     encoding_destroy(slow);
     sem_destroy(&stuck);
     sem_destroy(&let_go);
+    image_finish(&image);
+}
+
+/* Nobody has to be waited for. */
+static void the_owner_encodes_a_small_jpeg(void **state)
+{
+    const struct encode_params params = {.format = CODEC_JPEG};
+    struct image image = make_image(WIDTH, BAND, 5);
+    struct encoding *encoding = begin(&image, &params);
+    uint8_t *bytes;
+    size_t length;
+
+    (void)state;
+    add(encoding, &image, 0, BAND);
+    assert_null(encode_thread_take(encode_thread));
+    encode_thread_end(encode_thread, encoding, true);
+    assert_ptr_equal(encode_thread_take(encode_thread), encoding);
+    assert_true(encoding->ok);
+    sleep_until_woken();
+    assert_true(image_encode(&image, &params, &bytes, &length, NULL));
+    assert_int_equal(encoding->length, length);
+    assert_memory_equal(encoding->bytes, bytes, length);
+    free(bytes);
+    encoding_destroy(encoding);
     image_finish(&image);
 }
 
@@ -295,6 +319,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(given_up, start, stop),
         cmocka_unit_test_setup_teardown(full_queues_are_encoded_in_parts, start, stop),
         cmocka_unit_test_setup_teardown(urgent_encodings_come_first, start, stop),
+        cmocka_unit_test_setup_teardown(the_owner_encodes_a_small_jpeg, start, stop),
         cmocka_unit_test_setup_teardown(left_behind, start, stop),
     };
 
