@@ -42,7 +42,9 @@ static bool may_have_rounds(const struct job *job)
 
 static enum pace_company company_of(const struct job *job)
 {
-    return job->renderer->shared ? PACE_SHARED : PACE_ALONE;
+    return !job->renderer->shared               ? PACE_ALONE
+           : draw_picture_pauses(&job->picture) ? PACE_SHARED_PAUSING
+                                                : PACE_SHARED;
 }
 
 /* Of a length that is cut into equal parts of at most `side`: whole work groups where possible. */
@@ -82,9 +84,10 @@ static void begin_row(struct job *job, int y)
 /* The next tiles of the row. */
 static void choose_width(struct job *job)
 {
-    const struct pace_row shared = pace_begin(job->pace, PACE_SHARED, job->level);
-    const int side = draw_tile_side(job->renderer->draw, &job->picture, shared.doublings);
-    const int most = pace_width(&job->row.pace, company_of(job), job->row.side, side);
+    const enum pace_company company = company_of(job);
+    const struct pace_row now = pace_begin(job->pace, company, job->level);
+    const int side = draw_tile_side(job->renderer->draw, &job->picture, now.doublings);
+    const int most = pace_width(&job->row.pace, company, job->row.side, side);
 
     job->row.width = smaller(job->row.width, most);
 }
@@ -188,18 +191,18 @@ bool job_is_within_tile(const struct job *job)
     return job->started > 0 && last_slot(job)->samples > 0;
 }
 
+/* The same, or the engine has drawn some of it. */
+static bool is_unfinished(const struct job *job)
+{
+    return job_is_within_tile(job) || (job->started > 0 && last_slot(job)->paused);
+}
+
 bool job_is_sampled(const struct job *job)
 {
     return job->begun && draw_is_sampled(&job->picture);
 }
 
 /* --- how long it takes --- */
-
-/* Of a sample that is drawn when the call returns: by the clock or by the processors, whichever is
- * less, because who has to wait for a processor is not slow for that. */
-struct watch {
-    int64_t wall_us, cpu_us;
-};
 
 static int64_t clock_in_us(clockid_t clock)
 {
@@ -240,6 +243,7 @@ static void begin_row_anew(struct job *job)
         }
         job->picture.slots[i].samples = 0;
     }
+    job->times = job_times(job); /* it was spent all the same */
     for (int i = 0; i < AOV_COUNT; i++) {
         free(job->rows[i]);
         job->rows[i] = NULL;
@@ -254,7 +258,7 @@ static bool draw_sample(struct job *job, const struct draw_scene *scene)
 {
     struct draw *draw = job->renderer->draw;
 
-    if (job_is_within_tile(job)) {
+    if (is_unfinished(job)) {
         job->steps[(job->started - 1) % TILES_IN_FLIGHT]++;
         return draw_tile_more(draw, &job->picture, scene, (job->started - 1) % TILES_IN_FLIGHT,
                               &job->error);
@@ -265,7 +269,25 @@ static bool draw_sample(struct job *job, const struct draw_scene *scene)
                      &job->error);
 }
 
-/* The next tile, or the next sample of the one under way. */
+/* What it took decides on the tiles that follow. */
+static bool end_sample(struct job *job)
+{
+    const struct watch took = job->sample;
+    const int64_t took_us = took.wall_us < took.cpu_us ? took.wall_us : took.cpu_us;
+
+    job->sample = (struct watch){0};
+    if (job->renderer->info.software && !learn(job, &last_slot(job)->tile, took_us, took.cpu_us)) {
+        return false;
+    }
+    if (took_us > PACE_WRONG_US && job->row.pace.doublings > 0 && job->picture.from == 0) {
+        begin_row_anew(job);
+    } else if (!job_is_within_tile(job)) {
+        end_tile_start(job);
+    }
+    return true;
+}
+
+/* The next tile, or what comes next of the one under way. */
 static bool draw_next(struct job *job)
 {
     const struct draw_scene scene = scene_of(job);
@@ -275,18 +297,9 @@ static bool draw_next(struct job *job)
         return false;
     }
     const struct watch after = look_at_clocks(job);
-    const int64_t wall_us = after.wall_us - before.wall_us, cpu_us = after.cpu_us - before.cpu_us;
-    const int64_t took_us = wall_us < cpu_us ? wall_us : cpu_us;
-
-    if (job->renderer->info.software && !learn(job, &last_slot(job)->tile, took_us, cpu_us)) {
-        return false;
-    }
-    if (took_us > PACE_WRONG_US && job->row.pace.doublings > 0 && job->picture.from == 0) {
-        begin_row_anew(job);
-    } else if (!job_is_within_tile(job)) {
-        end_tile_start(job);
-    }
-    return true;
+    job->sample.wall_us += after.wall_us - before.wall_us;
+    job->sample.cpu_us += after.cpu_us - before.cpu_us;
+    return last_slot(job)->paused || end_sample(job);
 }
 
 /* Room for the rows that begin with this tile. */
@@ -395,12 +408,12 @@ enum job_state job_step(struct job *job)
     if (job->state != JOB_RUNNING) {
         return job->state;
     }
-    if ((job_is_within_tile(job) ||
+    if ((is_unfinished(job) ||
          (!all_started(job) && job->started - job->collected < TILES_IN_FLIGHT)) &&
         !draw_next(job)) {
         return fail(job);
     }
-    while (job->state == JOB_RUNNING && !job_is_within_tile(job) &&
+    while (job->state == JOB_RUNNING && !is_unfinished(job) &&
            (all_started(job) || job->started - job->collected == TILES_IN_FLIGHT)) {
         bool row_ends;
 
@@ -443,7 +456,16 @@ struct picture_rounds job_rounds(const struct job *job)
 
 struct job_times job_times(const struct job *job)
 {
-    return job->times;
+    struct job_times times = job->times;
+
+    /* The engine's tiles are drawn when they are started; those of a device when they are there. */
+    for (int i = job->collected; draw_picture_pauses(&job->picture) && i < job->started; i++) {
+        const struct tile_in_flight *slot = &job->picture.slots[i % TILES_IN_FLIGHT];
+        for (int k = 0; k < FRAME_STAGES; k++) {
+            times.us[k] += (uint32_t)slot->stage_us[k];
+        }
+    }
+    return times;
 }
 
 void job_destroy(struct job *job)

@@ -15,6 +15,12 @@ struct row {
     struct pace_row pace;
 };
 
+/* Of a sample of a tile: by the clock or by the processors, whichever is less, because who has to
+ * wait for a processor is not slow for that. */
+struct watch {
+    int64_t wall_us, cpu_us;
+};
+
 struct job {
     struct renderer *renderer;
     struct snapshot *snapshot;
@@ -33,6 +39,7 @@ struct job {
     int64_t limit_us;       /* that a sample of the smallest tile may take of the processors */
     struct row row;         /* that is being started */
     int started, collected; /* tiles */
+    struct watch sample;    /* what the one that is being drawn has taken so far */
     int steps[TILES_IN_FLIGHT]; /* samples drawn of the tile in each slot */
     int rows_height;            /* of the row of tiles collected last */
     bool begun;                 /* `picture` is valid */

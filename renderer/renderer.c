@@ -91,6 +91,7 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     struct renderer *renderer = memory_alloc(1, sizeof *renderer);
 
     renderer->params = *params;
+    renderer->bin = scene_bin_create();
     renderer->sink = (struct gl_sink){params->log, params->log_data};
     if (!open_device(renderer, err)) {
         goto fail;
@@ -98,6 +99,7 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     renderer->best = renderer->info.software ? RENDER_ENGINE : RENDER_COMPUTE;
     renderer_use_stage(renderer, params->stage);
     renderer->draw = draw_create(&renderer->gl, renderer->info.software, params->tile_side);
+    renderer_share(renderer, false);
     renderer->environments = environments_create(&renderer->gl);
     renderer->pictures = pictures_create();
     renderer->programs =
@@ -128,6 +130,7 @@ void renderer_destroy(struct renderer *renderer)
     while (renderer->residents) {
         resident_destroy(renderer->residents);
     }
+    scene_bin_destroy(renderer->bin);
     program_cache_destroy(renderer->programs);
     environments_destroy(renderer->environments);
     pictures_destroy(renderer->pictures);
@@ -215,7 +218,12 @@ double renderer_pace(const struct renderer *renderer)
 
 void renderer_share(struct renderer *renderer, bool shared)
 {
+    const struct renderer_params *params = &renderer->params;
+
     renderer->shared = shared;
+    draw_set_pause(renderer->draw, &(struct engine_pause){.wanted = params->is_wanted,
+                                                          .data = params->is_wanted_data,
+                                                          .soon = shared});
 }
 
 void renderer_set_pace(struct renderer *renderer, double pace)

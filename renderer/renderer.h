@@ -51,6 +51,10 @@ struct renderer_params {
     /* The same before the picture of an environment is read: its id, and "" when that is over. */
     void (*on_read)(void *data, const char *image);
     void *on_compile_data;
+    /* Whether the thread that draws has something else to do: asked by any thread that draws,
+     * between parts of a tile, which goes on with the next step then. NULL: never. */
+    bool (*is_wanted)(void *data);
+    void *is_wanted_data;
 };
 
 struct renderer_info {
@@ -238,7 +242,8 @@ enum job_state {
 /* The job draws the scene as it is now: later edits do not touch it. In rounds, the last picture is
  * the same as without; rounds before it have 4, 16 samples of each pixel. */
 struct job *job_create(struct resident *resident, const struct job_desc *desc, struct error *err);
-/* Draws a sample of each pixel of one tile and returns soon. */
+/* Draws a sample of each pixel of one tile and returns soon; earlier where the thread is wanted
+ * (renderer_params.is_wanted). */
 enum job_state job_step(struct job *job);
 /* A tile has samples and wants more: until it has them no other job that is sampled may be stepped,
  * or this one must be destroyed, because their samples lie in the same textures. */

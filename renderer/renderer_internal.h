@@ -9,6 +9,7 @@
 #include "renderer/draw/pace.h"
 #include "renderer/draw/pictures.h"
 #include "renderer/gl/egl.h"
+#include "scene_bin.h"
 #include "snapshot.h"
 
 struct renderer {
@@ -26,6 +27,7 @@ struct renderer {
     struct trials trials;
     struct program_cache *programs;
     struct resident *residents; /* a list */
+    struct scene_bin *bin;      /* of scenes that were theirs */
     struct renderer_counters counters;
     bool shared; /* see renderer_share */
     struct renderer_verdict *verdicts;

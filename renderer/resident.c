@@ -168,7 +168,7 @@ void resident_destroy(struct resident *resident)
     snapshot_unref(resident->renderer, resident->drawable);
     resident_forget_views(resident);
     upload_pool_empty(&resident->uploads, &resident->renderer->gl);
-    scene_destroy(resident->scene);
+    scene_bin_take(resident->renderer->bin, resident->scene);
     pace_unref(resident->pace);
     free(resident);
 }
@@ -177,7 +177,7 @@ void resident_replace_opened(struct resident *resident, const struct opened_scen
                              uint64_t revision)
 {
     if (resident->scene != opened->scene) {
-        scene_destroy(resident->scene);
+        scene_bin_take(resident->renderer->bin, resident->scene);
     }
     resident->scene = opened->scene;
     resident->revision = revision;

@@ -147,7 +147,7 @@ static void run(struct worker *w)
         struct pollfd fds[2] = {{.fd = w->fd, .events = worker_documents_full(w) ? 0 : POLLIN},
                                 {.fd = w->wake_fd, .events = POLLIN}};
         const bool full = w->out_length - w->out_sent > OUT_FULL;
-        struct worker_job *job = full ? NULL : worker_choose_job(w);
+        const struct worker_job *job = full ? NULL : worker_choose_job(w);
 
         if (w->out_sent < w->out_length) {
             fds[0].events |= POLLOUT;
@@ -158,9 +158,7 @@ static void run(struct worker *w)
         }
         if (fds[0].revents & (POLLIN | POLLHUP | POLLERR)) {
             receive(w);
-            job = full || w->status >= 0 ? NULL : worker_choose_job(w);
         }
-        worker_step(w, job);
         if (fds[1].revents) {
             worker_collect_encodings(w);
         }
@@ -173,6 +171,7 @@ static void run(struct worker *w)
         }
         worker_announce(w);
         worker_flush(w);
+        worker_step(w, full || w->status >= 0 ? NULL : worker_choose_job(w));
     }
 }
 
@@ -242,6 +241,8 @@ int worker_run(int fd, const struct worker_params *params)
     renderer.on_compile = worker_on_compile;
     renderer.on_read = worker_on_read;
     renderer.on_compile_data = &w;
+    renderer.is_wanted = worker_is_wanted;
+    renderer.is_wanted_data = &w;
     w.renderer = renderer_create(&renderer, &err);
     w.encode_thread = w.renderer ? encode_thread_create(w.wake_fd, &err) : NULL;
     w.scene_reader = scene_reader_create();

@@ -70,6 +70,7 @@ struct worker {
     struct worker_job *jobs;
     struct turns turns;
     uint64_t shared_until_us; /* pictures of several clients waited together not long ago */
+    uint64_t step_until_us;   /* the step that draws; renderer_params.is_wanted */
     uint32_t told_job;        /* that the front thinks is drawn; 0: none */
     struct confinement confined;
     int status; /* -1 while running */
@@ -147,6 +148,8 @@ void worker_drop_job(struct worker *w, struct worker_job **at);
 struct worker_job *worker_choose_job(struct worker *w);
 /* Draws one tile of it, or with NULL tells that nothing is drawn. */
 void worker_step(struct worker *w, struct worker_job *job);
+/* renderer_params.is_wanted: a packet or an encoded picture is there, or others wait for long. */
+bool worker_is_wanted(void *data);
 void worker_collect_encodings(struct worker *w);
 /* `malformed`: what is wrong with its members, if anything. */
 void worker_on_render(struct worker *w, const struct packet_render *packet,

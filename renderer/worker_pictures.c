@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The pictures that the render process draws: tile by tile, then encoded by another thread. */
+#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -15,6 +16,7 @@
 enum {
     PROGRESS_US = 1000000, /* how often a long picture is told to go on */
     SHARED_US = 1000000,   /* a client that has been here will be back */
+    STEP_US = 8000,        /* a step in company takes, of pictures that can pause */
 };
 
 static uint64_t now_us(void)
@@ -251,14 +253,25 @@ static uint64_t drawn_us(const struct worker_job *job)
 
 static enum job_state step(struct worker *w, struct worker_job *job)
 {
-    renderer_share(w->renderer, now_us() < w->shared_until_us);
-    const uint64_t before = drawn_us(job);
+    const uint64_t now = now_us(), before = drawn_us(job);
+    const bool shared = now < w->shared_until_us;
 
+    w->step_until_us = shared ? now + STEP_US : UINT64_MAX;
+    renderer_share(w->renderer, shared);
     crash_thread(CRASH_DRAWING);
     const enum job_state state = job_step(job->drawing);
     crash_thread(CRASH_ANYWHERE);
     turns_charge(&w->turns, job->turn, job->priority, drawn_us(job) - before);
     return state;
+}
+
+bool worker_is_wanted(void *data)
+{
+    const struct worker *w = data;
+    struct pollfd fds[2] = {{.fd = worker_documents_full(w) ? -1 : w->fd, .events = POLLIN},
+                            {.fd = w->wake_fd, .events = POLLIN}};
+
+    return poll(fds, 2, 0) > 0 || now_us() > w->step_until_us;
 }
 
 /* A step that draws, and those that take no time: a picture that is drawn is not kept waiting for

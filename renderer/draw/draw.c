@@ -104,6 +104,11 @@ void draw_forget(struct draw *draw)
     engine_cubes_forget(draw->cubes);
 }
 
+void draw_set_pause(struct draw *draw, const struct engine_pause *pause)
+{
+    draw->pause = *pause;
+}
+
 uint64_t draw_compilations(const struct draw *draw)
 {
     return draw->compilations;
@@ -175,7 +180,7 @@ int draw_tile_side(const struct draw *draw, const struct draw_picture *picture, 
 {
     const int side = PACE_MIN << doublings, most = largest_side(draw, &picture->settings);
 
-    if (picture->backend == &draw_engine) {
+    if (draw_picture_pauses(picture)) {
         return side < most ? side : most;
     }
     return side < most ? side - 2 * draw_margin(&picture->settings) : most - 2 * MARGIN;
@@ -246,6 +251,11 @@ struct picture_rounds draw_rounds(const struct draw_picture *picture)
         rounds.done += picture->from >= samples;
     }
     return rounds;
+}
+
+bool draw_picture_pauses(const struct draw_picture *picture)
+{
+    return picture->backend == &draw_engine;
 }
 
 bool draw_is_sampled(const struct draw_picture *picture)

@@ -61,6 +61,7 @@ struct tile_in_flight {
     GLsync fence;
     struct tile tile;
     int samples;                /* drawn of each pixel, while there are more to come; else 0 */
+    bool paused;                /* the engine has drawn a part of it */
     GLuint queries[DRAW_MARKS]; /* on a GPU: made where they are first needed */
     uint8_t stages[DRAW_MARKS]; /* what ended at each */
     int marks;
@@ -104,6 +105,8 @@ int draw_tile_side(const struct draw *draw, const struct draw_picture *picture, 
 uint64_t draw_compilations(const struct draw *draw);
 /* What pictures of the engine keep for the next ones. */
 void draw_forget(struct draw *draw);
+/* When the engine's tiles shall pause. */
+void draw_set_pause(struct draw *draw, const struct engine_pause *pause);
 /* Reflected and refracted rays that were started. */
 uint64_t draw_rays(const struct draw *draw);
 /* Pixels that the engine has drawn, and not copied. */
@@ -115,6 +118,8 @@ bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_
                 const struct render_settings *settings, const struct draw_scene *scene,
                 struct error *err);
 void draw_end(struct draw *draw, struct draw_picture *picture);
+/* The engine draws it, whose tiles pause. */
+bool draw_picture_pauses(const struct draw_picture *picture);
 /* Its pixels have several samples each. */
 bool draw_is_sampled(const struct draw_picture *picture);
 /* Before the first tile: the picture is drawn in rounds of ever more samples, each a whole picture.
@@ -125,7 +130,8 @@ bool draw_next_round(struct draw_picture *picture);
 struct picture_rounds draw_rounds(const struct draw_picture *picture);
 /* The first sample of each pixel, or those that the last round left. Where `samples` of the slot is
  * not 0 then, the tile is not finished: draw_tile_more draws one more, and no other picture that is
- * sampled may be drawn until it is 0. */
+ * sampled may be drawn until it is 0. A tile that is `paused` is not finished either:
+ * draw_tile_more goes on. Other pictures may be drawn meanwhile. */
 bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
                struct tile tile, int slot, struct error *err);
 bool draw_tile_more(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,

@@ -94,24 +94,22 @@ static size_t row_bytes(const struct output_format *format, struct tile tile)
     return (size_t)format->read_bytes * (size_t)tile.width;
 }
 
-/* Room for an output of the tile. */
-static struct engine_output make_output(struct tile_in_flight *slot,
-                                        const struct output_format *format)
+/* An output of the tile, which has room in the slot. */
+static struct engine_output output_of(const struct tile_in_flight *slot,
+                                      const struct output_format *format)
 {
     const bool floats = format->kind != OUT_BYTES;
-    const size_t stride = row_bytes(format, slot->tile);
 
-    slot->pixels[format->aov] = memory_alloc((size_t)slot->tile.height, stride);
     return (struct engine_output){.kind = format->output,
                                   .channels = format->read_bytes / (floats ? 4 : 1),
                                   .floats = floats,
                                   .pixels = slot->pixels[format->aov],
-                                  .stride = stride};
+                                  .stride = row_bytes(format, slot->tile)};
 }
 
-/* With all samples of the round. */
-static bool draw_samples(struct draw *draw, struct draw_picture *picture,
-                         const struct draw_scene *scene, int index, struct error *err)
+/* Until the tile is drawn, or a pause is wanted. */
+static bool go_on(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
+                  int index, struct error *err)
 {
     struct tile_in_flight *slot = &picture->slots[index];
     const struct engine_rect tile = {slot->tile.x, slot->tile.y, slot->tile.width,
@@ -122,19 +120,36 @@ static bool draw_samples(struct draw *draw, struct draw_picture *picture,
 
     (void)scene;
     (void)err;
-    clear_slot(slot);
     for (int i = 0; i < AOV_COUNT; i++) {
         if (picture->formats[i]) {
-            outputs[count++] = make_output(slot, picture->formats[i]);
+            outputs[count++] = output_of(slot, picture->formats[i]);
         }
     }
-    const struct engine_drawn drawn =
-        engine_draw(picture->canvas, tile, picture->from, picture->until, outputs, count);
+    const struct engine_drawn drawn = engine_draw(picture->canvas, tile, picture->from,
+                                                  picture->until, outputs, count, &draw->pause);
     draw->more_rays += drawn.rays;
     draw->pixels += drawn.pixels;
-    memset(slot->stage_us, 0, sizeof slot->stage_us);
-    slot->stage_us[FRAME_SHADE] = draw_now_us() - start;
+    slot->paused = drawn.paused;
+    slot->stage_us[FRAME_SHADE] += draw_now_us() - start;
     return true;
+}
+
+/* With all samples of the round. */
+static bool draw_samples(struct draw *draw, struct draw_picture *picture,
+                         const struct draw_scene *scene, int index, struct error *err)
+{
+    struct tile_in_flight *slot = &picture->slots[index];
+
+    clear_slot(slot);
+    for (int i = 0; i < AOV_COUNT; i++) {
+        const struct output_format *format = picture->formats[i];
+        if (format) {
+            slot->pixels[i] =
+                memory_alloc((size_t)slot->tile.height, row_bytes(format, slot->tile));
+        }
+    }
+    memset(slot->stage_us, 0, sizeof slot->stage_us);
+    return go_on(draw, picture, scene, index, err);
 }
 
 static bool wait(struct draw *draw, struct draw_picture *picture, int slot, struct error *err)
@@ -160,5 +175,4 @@ static bool collect(struct draw *draw, struct draw_picture *picture, int index, 
     return true;
 }
 
-/* No tile waits for more samples. */
-const struct draw_backend draw_engine = {begin, end, keep, draw_samples, NULL, wait, collect};
+const struct draw_backend draw_engine = {begin, end, keep, draw_samples, go_on, wait, collect};

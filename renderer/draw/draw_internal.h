@@ -21,6 +21,7 @@ struct draw {
     uint64_t more_rays;       /* by others */
     uint64_t pixels;          /* by the engine, and not copied */
     struct engine_cubes *cubes;
+    struct engine_pause pause;
 };
 
 /* What draws a picture's tiles. Each is called by the function of draw.h that is named alike. */

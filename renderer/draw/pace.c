@@ -9,7 +9,9 @@
  * comes to one that was alone waits for its tile once. */
 static const struct {
     int64_t long_us, short_us;
-} bounds[PACE_COMPANIES] = {[PACE_ALONE] = {80000, 20000}, [PACE_SHARED] = {7500, 1800}};
+} bounds[PACE_COMPANIES] = {[PACE_ALONE] = {80000, 20000},
+                            [PACE_SHARED] = {7500, 1800},
+                            [PACE_SHARED_PAUSING] = {40000, 10000}};
 
 struct pace *pace_create(void)
 {
@@ -19,6 +21,7 @@ struct pace *pace_create(void)
     for (int i = 0; i < QUALITY_COUNT; i++) {
         pace->doublings[PACE_ALONE][i] = PACE_FIRST;
         pace->doublings[PACE_SHARED][i] = PACE_FIRST_SHARED;
+        pace->doublings[PACE_SHARED_PAUSING][i] = PACE_FIRST;
     }
     return pace;
 }
@@ -46,14 +49,16 @@ int pace_width(const struct pace_row *row, enum pace_company company, int side, 
 {
     const int width = shared_side * shared_side / side / PACE_MIN * PACE_MIN; /* as many pixels */
 
-    return row->company == PACE_SHARED || company == PACE_ALONE || shared_side >= side ? side
-           : width > PACE_MIN                                                          ? width
-                                                                                       : PACE_MIN;
+    return row->company != PACE_ALONE || company == PACE_ALONE || shared_side >= side ? side
+           : width > PACE_MIN                                                         ? width
+                                                                                      : PACE_MIN;
 }
 
 void pace_be_careful(struct pace *pace, enum quality_level level)
 {
-    pace->doublings[PACE_ALONE][level] = pace->doublings[PACE_SHARED][level] = 0;
+    for (int i = 0; i < PACE_COMPANIES; i++) {
+        pace->doublings[i][level] = 0;
+    }
 }
 
 void pace_learn(struct pace *pace, enum quality_level level, struct pace_row *row, int64_t us)

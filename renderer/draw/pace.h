@@ -2,7 +2,8 @@
 /* The tile size of a scene. A tile is as large as can be drawn within a short time, so that other
  * pictures get their turn. The size is estimated from tile to tile for each quality level, and kept
  * with the scene. Small tiles cost more in total (a third more on a software driver), so they are
- * used only while others wait. Pixels do not depend on the size. Pure; one thread. */
+ * used only while others wait. The engine's tiles pause for others between their parts, and are
+ * somewhat larger. Pixels do not depend on the size. Pure; one thread. */
 #ifndef RENDERER_PACE_H
 #define RENDERER_PACE_H
 
@@ -11,7 +12,12 @@
 
 #include "protocol/picture.h"
 
-enum pace_company { PACE_ALONE, PACE_SHARED, PACE_COMPANIES };
+enum pace_company {
+    PACE_ALONE,
+    PACE_SHARED,
+    PACE_SHARED_PAUSING, /* and tiles pause */
+    PACE_COMPANIES
+};
 
 enum {
     PACE_MIN = 8,          /* pixels: the smallest side, a work group */

@@ -51,6 +51,7 @@ void engine_canvas_destroy(struct engine_canvas *canvas)
         canvas->picture.program->width->hand_destroy(canvas->hands[i]);
     }
     cubes_give(canvas->keeper, canvas->picture.program, canvas->cubes);
+    free(canvas->parts);
     free(canvas->pixels);
     free(canvas->counted);
     free(canvas);
@@ -64,9 +65,10 @@ static bool is_whole(const struct engine_canvas *canvas, const struct engine_wor
 }
 
 struct engine_drawn engine_draw(struct engine_canvas *canvas, struct engine_rect tile, int from,
-                                int until, const struct engine_output *outputs, size_t count)
+                                int until, const struct engine_output *outputs, size_t count,
+                                const struct engine_pause *pause)
 {
-    const struct engine_work work = {tile, from, until, outputs, count};
+    const struct engine_work work = {tile, from, until, outputs, count, pause};
 
     if (canvas->seeks && is_whole(canvas, &work)) {
         canvas->seen = seen_open(&canvas->cubes->seen, &canvas->picture, outputs, count);

@@ -89,9 +89,18 @@ struct engine_rect {
     int x, y, width, height;
 };
 
+/* Whether a call shall end before its tile is drawn: asked between two parts of the tile, by any
+ * thread that draws. */
+struct engine_pause {
+    bool (*wanted)(void *data); /* NULL: never */
+    void *data;
+    bool soon; /* parts are small, which takes some more time in total */
+};
+
 struct engine_drawn {
     uint64_t rays;   /* reflected and refracted ones, that were followed */
     uint64_t pixels; /* of the tile, that were drawn and not copied */
+    bool paused;     /* the next call shall be one with the same arguments, and goes on */
 };
 
 /* `picture` is copied; what it points to stays until the canvas is destroyed. */
@@ -106,6 +115,7 @@ void engine_canvas_destroy(struct engine_canvas *canvas);
  * 0 and few pixels are sampled, these are those that had all samples before. One call for a canvas
  * at a time. Pixels that are known to be those of the last picture are copied from there. */
 struct engine_drawn engine_draw(struct engine_canvas *canvas, struct engine_rect tile, int from,
-                                int until, const struct engine_output *outputs, size_t count);
+                                int until, const struct engine_output *outputs, size_t count,
+                                const struct engine_pause *pause);
 
 #endif

@@ -156,7 +156,9 @@ struct engine_canvas {
     bool verified;                      /* which of its squares are right is known */
     struct hand *hands[ENGINE_THREADS]; /* each is made when it is first needed */
     struct engine_rect kept;            /* width 0: nothing is */
-    float *pixels, *counted; /* sums of the kept: four and two for each (glsl/sums.glsl) */
+    float *pixels, *counted;   /* sums of the kept: four and two for each (glsl/sums.glsl) */
+    struct engine_part *parts; /* of the tile that is being drawn; NULL: none is */
+    size_t part_count;
 };
 
 /* Of a tile, that a thread draws at once. */
@@ -172,6 +174,7 @@ struct engine_work {
     int from, until;
     const struct engine_output *outputs;
     size_t output_count;
+    const struct engine_pause *pause;
 };
 
 struct engine_width {

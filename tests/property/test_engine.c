@@ -3,6 +3,7 @@
  * the same bytes for every width of vectors. */
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,9 +31,18 @@ enum {
 /* How the engine goes about it. */
 struct way {
     int lanes, threads, tile_side; /* 0: as usual */
+    bool pauses;                   /* after each part of a tile */
 };
 
-static const struct way usual = {0, 0, 0};
+static const struct way usual = {0};
+static atomic_int pauses; /* that were wanted */
+
+static bool is_wanted(void *data)
+{
+    (void)data;
+    pauses++;
+    return true;
+}
 
 static struct renderer *open_renderer(enum render_stage stage, struct way way)
 {
@@ -42,7 +52,8 @@ static struct renderer *open_renderer(enum render_stage stage, struct way way)
         .stage = stage,
         .lanes = way.lanes,
         .threads = way.threads,
-        .tile_side = way.tile_side};
+        .tile_side = way.tile_side,
+        .is_wanted = way.pauses ? is_wanted : NULL};
     struct renderer *renderer = renderer_create(&params, &err);
 
     if (!renderer) {
@@ -251,14 +262,20 @@ static void what_is_left_out_beside_equations_is_not_missed(void **state)
     renderer_destroy(renderer);
 }
 
-/* Every width, numbers of threads, sides of tiles. */
+/* Every width, numbers of threads, sides of tiles, without and with pauses. */
 static size_t list_ways(struct way *out)
 {
-    static const struct way others[] = {{0, 1, 0}, {0, 2, 0}, {0, 5, 0}, {0, 5, 16}, {0, 2, 24}};
+    static const struct way others[] = {{.threads = 1},
+                                        {.threads = 2},
+                                        {.threads = 5},
+                                        {.threads = 5, .tile_side = 16},
+                                        {.threads = 2, .tile_side = 24},
+                                        {.threads = 1, .pauses = true},
+                                        {.threads = 2, .pauses = true}};
     size_t count = 0;
 
     for (size_t i = 0; engine_lanes(i) > 0; i++) {
-        out[count++] = (struct way){engine_lanes(i), 0, 0};
+        out[count++] = (struct way){.lanes = engine_lanes(i)};
     }
     assert_true(count > 0);
     memcpy(out + count, others, sizeof others);
@@ -296,6 +313,8 @@ static void all_ways_give_the_same_bytes(void **state)
             assert_memory_equal(image.pixels, first[i].pixels, image.bytes);
             image_finish(&image);
         }
+        assert_true(ways[k].pauses == (pauses > 0));
+        pauses = 0;
         renderer_destroy(renderer);
     }
     for (size_t i = 0; i < SCENES; i++) {

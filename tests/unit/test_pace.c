@@ -42,6 +42,7 @@ static void company_makes_tiles_shorter(void **state)
 
     (void)state;
     assert_int_equal(row_of(pace, PACE_SHARED, QUALITY_STILL, MIDDLING_US), PACE_FIRST_SHARED - 1);
+    assert_int_equal(row_of(pace, PACE_SHARED_PAUSING, QUALITY_STILL, MIDDLING_US), PACE_FIRST);
     assert_int_equal(row_of(pace, PACE_ALONE, QUALITY_STILL, MIDDLING_US), PACE_FIRST + 1);
     assert_int_equal(pace_begin(pace, PACE_SHARED, QUALITY_STILL).doublings, PACE_FIRST_SHARED - 1);
     pace_unref(pace);
