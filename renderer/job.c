@@ -102,7 +102,7 @@ static struct draw_scene scene_of(const struct job *job)
         .program = program,
         .params = program ? snapshot_params(job->renderer, snapshot) : NULL,
         .environment = snapshot->environment,
-        .values = snapshot->field->params,
+        .values = snapshot->geometry.field->params,
         .engine = program            ? NULL
                   : snapshot->bridge ? snapshot->bridge
                                      : snapshot->engine,
@@ -441,7 +441,7 @@ uint64_t job_revision(const struct job *job)
 
 struct field *job_field(const struct job *job)
 {
-    return job->snapshot->field;
+    return job->snapshot->geometry.field;
 }
 
 uint64_t job_structure_with_code(const struct job *job)

@@ -8,7 +8,7 @@
 
 #include "protocol/memory.h"
 #include "renderer/draw/camera.h"
-#include "renderer/field/field.h"
+#include "renderer/geometry.h"
 
 /* How far a picked point may be off the surface, for each unit of the greatest distance. */
 static const double TOLERANCE = 1e-6;
@@ -17,7 +17,7 @@ static const double LEAST_STEP = 1e-5;
 
 struct pick_field {
     atomic_int references;
-    struct field *field;
+    struct geometry geometry;
     struct record camera; /* the scene's */
     double max_distance;
     uint64_t work; /* of one evaluation, at most */
@@ -27,17 +27,17 @@ struct pick_field *pick_field_create(const struct scene *scene, const char *cons
                                      size_t isolated_count, struct error *err)
 {
     const struct field_options options = {.isolated = isolated, .isolated_count = isolated_count};
-    struct field *compiled = field_compile_as(scene, &options, err);
+    struct geometry geometry;
 
-    if (!compiled) {
+    if (!geometry_init(&geometry, scene, &options, err)) {
         return NULL;
     }
     struct pick_field *field = memory_alloc(1, sizeof *field);
     field->references = 1;
-    field->field = compiled;
+    field->geometry = geometry;
     record_copy(&field->camera, &scene->camera);
     field->max_distance = record_number(&scene->render, "max_distance");
-    field->work = field_work(compiled);
+    field->work = geometry_work(&geometry);
     return field;
 }
 
@@ -50,19 +50,10 @@ struct pick_field *pick_field_ref(struct pick_field *field)
 void pick_field_unref(struct pick_field *field)
 {
     if (field && atomic_fetch_sub(&field->references, 1) == 1) {
-        field_unref(field->field);
+        geometry_finish(&field->geometry);
         record_finish(&field->camera);
         free(field);
     }
-}
-
-/* Where the ray meets the surface; -1: nowhere. */
-static double march(const struct pick_field *field, const struct section *section,
-                    const double origin[3], const double direction[3])
-{
-    return field_march_within(field->field, origin, direction, section, field->max_distance,
-                              TOLERANCE * field->max_distance,
-                              (int)(LIMIT_PICK_WORK / field->work));
 }
 
 static void at(const double origin[3], const double direction[3], double t, double out[3])
@@ -72,9 +63,10 @@ static void at(const double origin[3], const double direction[3], double t, doub
     }
 }
 
-static const char *leaf_at(const struct pick_field *field, const double p[3])
+static const char *leaf_at(const struct pick_field *field, enum geometry_source source,
+                           const double p[3])
 {
-    const char *id = field_leaf_id(field->field, field_surface(field->field, p, NULL).number);
+    const char *id = geometry_leaf(&field->geometry, source, p);
 
     return id ? id : "";
 }
@@ -93,21 +85,9 @@ static void add_through(struct pick_result *result, const char *id)
     }
 }
 
-/* Of what is cut where `p` is, the section's. */
-static void normal_at(const struct pick_field *field, const struct section *section,
-                      const double p[3], double h, double out[3])
-{
-    if (section_beyond(section, p) > field_distance(field->field, p)) {
-        memcpy(out, section->normal, sizeof section->normal);
-    } else {
-        field_normal(field->field, p, h, out);
-    }
-}
-
 /* A field changes no faster than the way, inside too: where its sign changes is a surface. */
-static void follow_through(const struct pick_field *field, const struct section *section,
-                           const double origin[3], const double direction[3],
-                           struct pick_result *result)
+static void follow_through(const struct pick_field *field, const struct geometry_ray *ray,
+                           enum geometry_source source, struct pick_result *result)
 {
     const double least = LEAST_STEP * field->max_distance;
     bool inside = true;
@@ -116,11 +96,11 @@ static void follow_through(const struct pick_field *field, const struct section 
     add_through(result, result->node);
     for (uint64_t work = 0; t < field->max_distance && work < LIMIT_PICK_WORK;
          work += field->work) {
-        at(origin, direction, t, p);
-        const double d = fmax(field_distance(field->field, p), section_beyond(section, p));
+        at(ray->origin, ray->direction, t, p);
+        const double d = geometry_distance(&field->geometry, source, ray->section, p);
         if ((d < 0) != inside) {
             inside = d < 0;
-            add_through(result, leaf_at(field, p));
+            add_through(result, leaf_at(field, source, p));
         }
         t += fmax(fabs(d), least);
     }
@@ -132,22 +112,26 @@ struct pick_result pick_at(const struct pick_field *field, const struct pick_que
     const struct camera camera =
         camera_from_record(question->camera ? question->camera : &field->camera, width, height);
     const struct section section = section_from_record(question->section);
+    struct geometry_ray ray = {.section = &section,
+                               .max_distance = field->max_distance,
+                               .tolerance = TOLERANCE * field->max_distance,
+                               .max_steps = (int)(LIMIT_PICK_WORK / field->work)};
     struct pick_result result = {0};
-    double origin[3], direction[3];
 
-    camera_ray(&camera, width, height, question->x, question->y, origin, direction);
-    const double t = march(field, &section, origin, direction);
-    if (t < 0) {
+    camera_ray(&camera, width, height, question->x, question->y, ray.origin, ray.direction);
+    const struct geometry_hit found = geometry_trace(&field->geometry, &ray);
+    if (!found.hit) {
         return result;
     }
-    at(origin, direction, t, result.position);
-    const double print = camera.pixel_radius * (camera.orthographic ? 1 : t);
-    normal_at(field, &section, result.position, 0.5 * print + 1e-6, result.normal);
-    result.distance = t;
+    at(ray.origin, ray.direction, found.distance, result.position);
+    const double print = camera.pixel_radius * (camera.orthographic ? 1 : found.distance);
+    geometry_normal(&field->geometry, found.source, &section, result.position, 0.5 * print + 1e-6,
+                    result.normal);
+    result.distance = found.distance;
     result.hit = true;
-    snprintf(result.node, sizeof result.node, "%s", leaf_at(field, result.position));
+    snprintf(result.node, sizeof result.node, "%s", leaf_at(field, found.source, result.position));
     if (question->through) {
-        follow_through(field, &section, origin, direction, &result);
+        follow_through(field, &ray, found.source, &result);
     }
     return result;
 }

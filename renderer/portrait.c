@@ -7,7 +7,7 @@
 #include "protocol/json.h"
 #include "protocol/messages.h"
 #include "renderer/draw/camera.h"
-#include "renderer/field/field.h"
+#include "renderer/geometry.h"
 
 /* A warm key light from the left above the camera, a cool one from the right that fills its
  * shadows, one from behind that draws the outline, and a bright room around. */
@@ -137,12 +137,16 @@ static void add_hit(struct outline *outline, int column, int row, double depth)
 
 /* A ray meets what comes as near as half a cell, so that nothing is passed over. False: there is
  * nothing, or no time to look. */
-static bool find_outline(const struct field *field, const struct camera *camera, double distance,
-                         struct outline *out)
+static bool find_outline(const struct geometry *geometry, const struct camera *camera,
+                         double distance, struct outline *out)
 {
     const double cell = 2 * tan(FOV * M_PI / 360) / ROWS;
-    const uint64_t work = field_work(field) * STEPS * COLUMNS * ROWS;
+    const uint64_t work = geometry_work(geometry) * STEPS * COLUMNS * ROWS;
     const struct section none = {0};
+    struct geometry_ray ray = {.section = &none,
+                               .max_distance = 3 * distance,
+                               .tolerance = cell / 2 * distance,
+                               .max_steps = STEPS};
 
     *out = (struct outline){{COLUMNS, ROWS}, {0, 0}, INFINITY, 0};
     if (work / 4 > WORK) { /* most rays take few steps */
@@ -150,13 +154,10 @@ static bool find_outline(const struct field *field, const struct camera *camera,
     }
     for (int row = 0; row < ROWS; row++) {
         for (int column = 0; column < COLUMNS; column++) {
-            double origin[3], direction[3], depth;
-
-            camera_ray(camera, COLUMNS, ROWS, column + 0.5, row + 0.5, origin, direction);
-            depth = field_march_within(field, origin, direction, &none, 3 * distance,
-                                       cell / 2 * distance, STEPS);
-            if (depth >= 0) {
-                add_hit(out, column, row, depth);
+            camera_ray(camera, COLUMNS, ROWS, column + 0.5, row + 0.5, ray.origin, ray.direction);
+            const struct geometry_hit found = geometry_trace(geometry, &ray);
+            if (found.hit) {
+                add_hit(out, column, row, found.distance);
             }
         }
     }
@@ -180,11 +181,12 @@ static void follow(struct aim *aim, const struct outline *outline, const struct 
     aim->distance = MARGIN * part * depth + (depth - outline->near) * (1 - part);
 }
 
-static struct aim find_aim(const struct field *field, const struct bounds *bounds)
+static struct aim find_aim(const struct geometry *geometry)
 {
+    const struct bounds bounds = geometry_bounds(geometry);
     struct aim aim;
     struct record record;
-    const double radius = bounds_sphere(bounds, aim.target);
+    const double radius = bounds_sphere(&bounds, aim.target);
 
     aim.distance = fmax(radius, 1e-3) / sin(FOV * M_PI / 360);
     record_init(&record, &camera_type);
@@ -193,7 +195,7 @@ static struct aim find_aim(const struct field *field, const struct bounds *bound
 
         aim_record(&aim, &record);
         const struct camera camera = camera_from_record(&record, COLUMNS, ROWS);
-        if (!find_outline(field, &camera, aim.distance, &outline)) {
+        if (!find_outline(geometry, &camera, aim.distance, &outline)) {
             break;
         }
         follow(&aim, &outline, &camera);
@@ -231,12 +233,12 @@ static void hide_planes(cJSON *node)
     }
 }
 
-static struct scene *read_scene(const cJSON *document, struct field **out_field, struct error *err)
+static struct scene *read_scene(const cJSON *document, struct geometry *out_geometry,
+                                struct error *err)
 {
     struct scene *scene = scene_read(document, err);
 
-    *out_field = scene ? field_compile(scene, err) : NULL;
-    if (!*out_field) {
+    if (!scene || !geometry_init(out_geometry, scene, &(struct field_options){0}, err)) {
         scene_destroy(scene);
         return NULL;
     }
@@ -248,11 +250,11 @@ static struct scene *read_scene(const cJSON *document, struct field **out_field,
 static struct bounds find_box(const cJSON *document, const struct bounds *whole)
 {
     cJSON *standing = cJSON_Duplicate(document, true);
-    struct field *field;
+    struct geometry geometry;
 
     hide_planes(cJSON_GetObjectItemCaseSensitive(standing, "root"));
-    struct scene *scene = read_scene(standing, &field, NULL);
-    struct bounds box = scene ? field->bounds : bounds_empty();
+    struct scene *scene = read_scene(standing, &geometry, NULL);
+    struct bounds box = scene ? geometry_bounds(&geometry) : bounds_empty();
     const bool stands = !bounds_is_empty(&box) && bounds_is_finite(&box);
     if (stands) {
         box = bounds_grow(box, GROUND * (box.high[0] - box.low[0] + box.high[2] - box.low[2]));
@@ -260,7 +262,7 @@ static struct bounds find_box(const cJSON *document, const struct bounds *whole)
         box = cut_bounds(*whole);
     }
     if (scene) {
-        field_unref(field);
+        geometry_finish(&geometry);
         scene_destroy(scene);
     }
     cJSON_Delete(standing);
@@ -269,31 +271,33 @@ static struct bounds find_box(const cJSON *document, const struct bounds *whole)
 
 struct scene *portrait_scene(cJSON *document, struct error *err)
 {
-    struct field *field;
+    struct geometry geometry;
 
     add_setting(document);
-    struct scene *scene = read_scene(document, &field, err);
-    if (scene && !bounds_is_empty(&field->bounds) && !bounds_is_finite(&field->bounds)) {
-        const struct bounds box = find_box(document, &field->bounds);
+    struct scene *scene = read_scene(document, &geometry, err);
+    struct bounds bounds = scene ? geometry_bounds(&geometry) : bounds_empty();
+    if (scene && !bounds_is_empty(&bounds) && !bounds_is_finite(&bounds)) {
+        const struct bounds box = find_box(document, &bounds);
 
-        field_unref(field);
+        geometry_finish(&geometry);
         scene_destroy(scene);
         cut(document, &box);
-        scene = read_scene(document, &field, err);
+        scene = read_scene(document, &geometry, err);
+        bounds = scene ? geometry_bounds(&geometry) : bounds;
     }
     if (!scene) {
         return NULL;
     }
-    if (bounds_is_empty(&field->bounds)) {
+    if (bounds_is_empty(&bounds)) {
         error_set(err, ERROR_INVALID, "/root", "it shows nothing");
         scene_destroy(scene);
         scene = NULL;
     } else {
-        const struct aim aim = find_aim(field, &field->bounds);
+        const struct aim aim = find_aim(&geometry);
 
         aim_record(&aim, &scene->camera);
         record_put(&scene->render, "max_distance", fmin(4 * aim.distance, LIMIT_COORDINATE));
     }
-    field_unref(field);
+    geometry_finish(&geometry);
     return scene;
 }

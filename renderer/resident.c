@@ -41,10 +41,10 @@ struct field *resident_drawn_field(const struct resident *resident)
     const struct snapshot *newest = resident->newest;
 
     if (resident->drawable) {
-        return resident->drawable->field;
+        return resident->drawable->geometry.field;
     }
     return newest && snapshot_state(newest) != PROGRAM_FAILED && trial_is_over(newest->trial)
-               ? newest->field
+               ? newest->geometry.field
                : NULL;
 }
 
@@ -196,7 +196,7 @@ bool resident_apply(struct resident *resident, const cJSON *ops, uint64_t revisi
 {
     if (!edit_apply(resident->scene, ops, NULL, NULL, err)) {
         if (resident->newest) {
-            field_end_patches(resident->newest->field);
+            field_end_patches(resident->newest->geometry.field);
         }
         return false;
     }

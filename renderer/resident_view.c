@@ -58,7 +58,7 @@ static struct snapshot *make_snapshot(struct resident *resident, const struct jo
                                       struct error *err)
 {
     const struct field_options options = {
-        .drawn = resident->newest->field,
+        .drawn = resident->newest->geometry.field,
         .isolated = desc->isolated,
         .isolated_count = desc->isolated_count,
     };

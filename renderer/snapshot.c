@@ -166,9 +166,11 @@ static bool has_estimates(const struct field *field)
 }
 
 /* `limit_loops`: the driver ends long ones. */
-struct scene_bounds snapshot_bounds(const struct field *field, const struct record *camera,
+struct scene_bounds snapshot_bounds(const struct geometry *geometry, const struct record *camera,
                                     bool limit_loops)
 {
+    const struct field *field = geometry->field;
+    const struct bounds bounds = geometry_bounds(geometry);
     struct scene_bounds extent = {.scale = scene_scale(camera),
                                   .transmissive = field->transmissive,
                                   .reflective = is_reflective(field),
@@ -177,8 +179,8 @@ struct scene_bounds snapshot_bounds(const struct field *field, const struct reco
                                   .limit_loops = limit_loops};
 
     for (int i = 0; i < 3; i++) {
-        extent.min[i] = field->bounds.low[i];
-        extent.max[i] = field->bounds.high[i];
+        extent.min[i] = bounds.low[i];
+        extent.max[i] = bounds.high[i];
         extent.transmissive_min[i] = field->transmissive_bounds.low[i];
         extent.transmissive_max[i] = field->transmissive_bounds.high[i];
     }
@@ -289,10 +291,11 @@ static void bridge(struct renderer *renderer, struct snapshot *snapshot,
                    const struct snapshot *before)
 {
     if (program_state(snapshot->program) != PROGRAM_READY) {
-        snapshot->bridge = before && before->bridge
-                               ? engine_program_ref(before->bridge)
-                               : engine_program_create(snapshot->field, renderer->params.lanes,
-                                                       renderer->params.threads);
+        snapshot->bridge =
+            before && before->bridge
+                ? engine_program_ref(before->bridge)
+                : engine_program_create(snapshot->geometry.field, renderer->params.lanes,
+                                        renderer->params.threads);
     }
 }
 
@@ -306,26 +309,26 @@ static bool find_back_end(struct renderer *renderer, struct snapshot *snapshot,
     const struct renderer_verdict *verdict =
         renderer_find_verdict(renderer, snapshot->structure_hash, "");
     const bool compiles =
-        renderer->info.stage != RENDER_ENGINE && field_can_be_compiled(snapshot->field);
+        renderer->info.stage != RENDER_ENGINE && field_can_be_compiled(snapshot->geometry.field);
 
     if (verdict && verdict->refused != ERROR_NONE) {
         *out_refused = snapshot->structure_hash;
-        refuse(snapshot->field, scene, verdict, err);
+        refuse(snapshot->geometry.field, scene, verdict, err);
         return false;
     }
     if (before && before->engine) {
         snapshot->engine = engine_program_ref(before->engine);
-        snapshot->trial = trial_follow(&renderer->trials, before->trial, snapshot->field);
+        snapshot->trial = trial_follow(&renderer->trials, before->trial, snapshot->geometry.field);
     } else if (compiles) {
-        snapshot->program = get_program(renderer, snapshot->field, scene, snapshot->structure_hash,
-                                        &snapshot->warning.error, err);
+        snapshot->program = get_program(renderer, snapshot->geometry.field, scene,
+                                        snapshot->structure_hash, &snapshot->warning.error, err);
         if (snapshot->program) {
             bridge(renderer, snapshot, before);
         }
     } else {
-        snapshot->engine = engine_program_create(snapshot->field, renderer->params.lanes,
+        snapshot->engine = engine_program_create(snapshot->geometry.field, renderer->params.lanes,
                                                  renderer->params.threads);
-        snapshot->trial = trial_begin(&renderer->trials, snapshot->field);
+        snapshot->trial = trial_begin(&renderer->trials, snapshot->geometry.field);
     }
     return snapshot->engine || snapshot->program;
 }
@@ -341,7 +344,7 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
     snapshot->references = 1;
     snapshot->revision = revision;
     snapshot->upload = upload;
-    snapshot->field = field;
+    snapshot->geometry = (struct geometry){.field = field};
     snapshot->structure_hash = structure_of(field, scene, renderer->info.stage == RENDER_FRAGMENT);
     if (!find_back_end(renderer, snapshot, scene, before, out_refused, err)) {
         snapshot_unref(renderer, snapshot);
@@ -349,15 +352,15 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
     }
     record_copy(&snapshot->camera, &scene->camera);
     record_copy(&snapshot->render, &scene->render);
-    snapshot->extent =
-        snapshot_bounds(field, &scene->camera, renderer->info.software && !snapshot->engine);
+    snapshot->extent = snapshot_bounds(&snapshot->geometry, &scene->camera,
+                                       renderer->info.software && !snapshot->engine);
     look_around(renderer, snapshot, scene);
     return snapshot;
 }
 
 uint64_t snapshot_structure_with_code(const struct snapshot *snapshot)
 {
-    return snapshot->field->user_code ? snapshot->structure_hash : 0;
+    return snapshot->geometry.field->user_code ? snapshot->structure_hash : 0;
 }
 
 const struct error *snapshot_error(const struct snapshot *snapshot)
@@ -429,5 +432,5 @@ void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
 const struct param_buffer *snapshot_params(struct renderer *renderer, struct snapshot *snapshot)
 {
     return upload_params(snapshot->upload, &renderer->gl, renderer->info.software,
-                         number_capacity(snapshot->field));
+                         number_capacity(snapshot->geometry.field));
 }

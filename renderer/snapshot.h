@@ -8,13 +8,13 @@
 #include "renderer/draw/draw.h"
 #include "renderer/draw/trial.h"
 #include "renderer/draw/upload.h"
-#include "renderer/field/field.h"
+#include "renderer/geometry.h"
 
 struct snapshot {
     int references;
     uint64_t revision;
     struct upload *upload;
-    struct field *field;         /* that of `upload` */
+    struct geometry geometry;    /* with the field of `upload` */
     uint64_t structure_hash;     /* of the program that the device has, or would have */
     struct program *program;     /* NULL: the engine draws it */
     struct record camera;        /* the document's */
@@ -37,8 +37,8 @@ struct snapshot {
 
 struct renderer;
 
-/* The field of a scene, in which what is hidden has its part where it may: that is no reason not to
- * draw the rest. NULL and `err` when the scene is no field. Any thread. */
+/* Compiles the field of a scene. Hidden nodes stay in the program (options->drawn), unless the
+ * field is refused with them. NULL and `err` when the scene is no field. Any thread. */
 struct field *snapshot_field(const struct scene *scene, const struct field_options *options,
                              struct error *err);
 /* Finds or starts the program; takes the reference of `upload`. `before`: the snapshot before a
@@ -47,8 +47,8 @@ struct field *snapshot_field(const struct scene *scene, const struct field_optio
 struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
                                  uint64_t revision, const struct snapshot *before,
                                  struct upload *upload, uint64_t *out_refused, struct error *err);
-/* What a field says of where it is. `limit_loops`: as of struct scene_bounds. */
-struct scene_bounds snapshot_bounds(const struct field *field, const struct record *camera,
+/* The extent of a geometry, and how it is made. `limit_loops`: as of struct scene_bounds. */
+struct scene_bounds snapshot_bounds(const struct geometry *geometry, const struct record *camera,
                                     bool limit_loops);
 struct snapshot *snapshot_ref(struct snapshot *snapshot);
 /* Of its program, of users' code, and of the picture that its environment is made of. A program

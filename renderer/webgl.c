@@ -242,7 +242,8 @@ char *renderer_webgl(const struct scene *scene, int level, struct error *err)
     char *text = NULL;
 
     if (field && has_room(field, err) && field_try(field, &warning, err)) {
-        const struct scene_bounds extent = snapshot_bounds(field, &scene->camera, false);
+        const struct scene_bounds extent =
+            snapshot_bounds(&(struct geometry){.field = field}, &scene->camera, false);
         /* Of any size: the shader is told which. */
         const struct camera camera = camera_from_record(&scene->camera, 1, 1);
         struct frame_uniforms frame;

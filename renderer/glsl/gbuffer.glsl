@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the march and material passes leave for the others, 48 bytes for each sample:
+/* What the march and material passes leave for the others, 56 bytes for each sample:
  *
  *   geometry  rgba32f   normal, distance along the ray (INFINITY: nothing hit; below 0: from inside
  *                       of something transmissive, something opaque)
@@ -11,6 +11,8 @@
  *                       y  ambient, 1 where painted   10 bits each, 2 bits
  *                       z  absorption                 shared exponent
  *                       w  id
+ *   steps     rg32f     steps of the march, STEPS_BITS, and above them the hit's source, as a whole
+ *                       number; curvature
  *
  * Parts of n bits are from 0 to 1 in 2^n - 1 steps. A shared exponent (OpenGL 4.3, 8.25) leaves
  * nine bits to each channel: the error is at most 1/500 of the greatest one. */
@@ -19,6 +21,23 @@
 #include "surface.glsl"
 
 #define SHARED_MAX 65408.0
+#define STEPS_BITS 16
+
+/* A float holds whole numbers of 24 bits. */
+float steps_pack(int steps, int source)
+{
+    return float(source << STEPS_BITS | steps);
+}
+
+int steps_count(float word)
+{
+    return int(word) & (1 << STEPS_BITS) - 1;
+}
+
+int steps_source(float word)
+{
+    return int(word) >> STEPS_BITS;
+}
 
 /* Nine bits of each channel, then five of an exponent, such that none of the former rounds up to
  * ten bits: hence the little more than the greatest channel that the exponent is taken of. */

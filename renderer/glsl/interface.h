@@ -16,6 +16,9 @@
 
 /* --- kinds --- */
 
+/* What a ray has met: renderer/geometry.h, surface_of.glsl. */
+#define GEOMETRY_SOURCES(X) X(GEOMETRY_FIELD)
+
 #define SURFACE_MODELS(X)                                                                          \
     X(MODEL_PHONG)    /* highlights by the halfway vector */                                       \
     X(MODEL_BLINN)    /* highlights by the reflected vector */                                     \
@@ -246,6 +249,7 @@
 #define INTERFACE_VALUE(name, value) name = (value),
 #define INTERFACE_ARG(name) int32_t name;
 
+enum geometry_source { GEOMETRY_SOURCES(INTERFACE_NAME) };
 enum surface_model { SURFACE_MODELS(INTERFACE_NAME) };
 enum { FRAME_EFFECTS(INTERFACE_VALUE) };
 enum pass_mode { PASS_MODES(INTERFACE_NAME) };

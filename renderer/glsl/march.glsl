@@ -9,6 +9,7 @@ struct Hit {
     bool hit;
     bool opaque; /* met alone: inside something transmissive, or close to its surface */
     float free;  /* nothing is nearer */
+    int source;  /* GEOMETRY_... */
     float t;
     vec3 normal; /* towards where the ray comes from */
     int steps;
@@ -185,6 +186,6 @@ Hit march(Ray ray, float start, float cone, int max_steps)
     }
     /* Behind an edge that the ray only brushed, the field leads away from the eye. */
     normal = normalize(normal - ray.direction * max(dot(normal, ray.direction) + 0.02, 0.0));
-    return Hit(hit, opaque && (ray.inside || early), free, hit ? t : INFINITY, normal, taken,
-               curvature);
+    return Hit(hit, opaque && (ray.inside || early), free, GEOMETRY_FIELD, hit ? t : INFINITY,
+               normal, taken, curvature);
 }

@@ -4,10 +4,11 @@
 
 #include "camera.glsl"
 #include "field_pass.glsl"
+#include "gbuffer.glsl"
 #include "march.glsl"
 
 layout(rgba32f, binding = IMAGE_GEOMETRY) writeonly uniform image2D out_geometry;
-layout(rg32f, binding = IMAGE_STEPS) writeonly uniform image2D out_steps; /* y: curvature */
+layout(rg32f, binding = IMAGE_STEPS) writeonly uniform image2D out_steps;
 layout(r32f, binding = IMAGE_STARTS) uniform image2D starts; /* one value for each block */
 
 void main()
@@ -29,6 +30,7 @@ void main()
     } else {
         float t = found.opaque ? -max(found.t, 1e-30) : found.t;
         imageStore(out_geometry, here, vec4(found.hit ? found.normal : vec3(0.0), t));
-        imageStore(out_steps, here, vec4(float(found.steps), found.curvature, 0.0, 0.0));
+        float word = steps_pack(found.steps, found.source);
+        imageStore(out_steps, here, vec4(word, found.curvature, 0.0, 0.0));
     }
 }

@@ -2,8 +2,8 @@
 /* Second pass: what the surface that the march found is made of. */
 
 #include "field_pass.glsl"
-#include "field_surface.glsl"
 #include "gbuffer_load.glsl"
+#include "surface_of.glsl"
 
 layout(rgba32ui, binding = IMAGE_MATERIAL0) writeonly uniform uimage2D out_material0;
 layout(rgba32ui, binding = IMAGE_MATERIAL1) writeonly uniform uimage2D out_material1;
@@ -19,9 +19,10 @@ void main()
     vec3 p = ray.origin + ray.direction * (hit ? t : 0.0);
     /* Where two surfaces lie near each other, the one that was met. */
     field_mask = g.w < 0.0 ? FAR : ray.inside ? -FAR : 0.0;
-    Surface s;
+    Surface s = surface_nothing();
     uvec4 material0, material1;
-    surface(p, Shading(p, vec3(0.0), g.xyz, ray.direction, t), s);
+    surface_of(steps_source(steps_load(here).x), p,
+               Shading(p, vec3(0.0), g.xyz, ray.direction, t), s);
     s.id = hit ? s.id : 0u;
     surface_pack(s, material0, material1);
     imageStore(out_material0, here, material0);

@@ -7,15 +7,13 @@
 #include "visibility_load.glsl"
 #include "visibility_mean.glsl"
 
-layout(binding = UNIT_STEPS) uniform sampler2D steps;
-
 Met met_load(ivec2 here)
 {
     vec4 g = texelFetch(geometry, here, 0);
     Ray ray = camera_sample(dispatch.origin + here, 0);
     vec3 place = ray.origin + ray.direction * g.w;
-    return Met(g.w < INFINITY, g.xyz, g.w, place, texelFetch(steps, here, 0).x, surface_load(here),
-               visibility_mean(here), ambient_visibility_of(here));
+    return Met(g.w < INFINITY, g.xyz, g.w, place, float(steps_count(steps_load(here).x)),
+               surface_load(here), visibility_mean(here), ambient_visibility_of(here));
 }
 
 uint met_id(ivec2 here)

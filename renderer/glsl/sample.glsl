@@ -3,13 +3,12 @@
  * shader, or the engine. VOLUMES: there may be some. OPAQUE: light goes through nothing. */
 
 #include "camera.glsl"
-#include "field_surface.glsl"
 #include "march.glsl"
-#include "mixture.glsl"
 #include "outputs.glsl"
 #include "sample_sink.glsl"
 #include "secondary_rays.glsl"
 #include "shadow.glsl"
+#include "surface_of.glsl"
 #include "transmission.glsl"
 #include "visibility_mean.glsl"
 #ifdef VOLUMES
@@ -24,11 +23,9 @@ void find(Ray ray, float start, out Hit found, out vec4 g, out Surface s)
     vec3 p = ray.origin + ray.direction * t;
     g = vec4(found.hit ? found.normal : vec3(0.0), found.opaque ? -max(found.t, 1e-30) : found.t);
     field_mask = found.opaque ? FAR : ray.inside ? -FAR : 0.0;
-    Mixture nothing = mixture_far();
-    s = surface_begin(nothing);
-    s.id = 0u;
+    s = surface_nothing();
     if (found.hit) {
-        surface(p, Shading(p, vec3(0.0), found.normal, ray.direction, t), s);
+        surface_of(found.source, p, Shading(p, vec3(0.0), found.normal, ray.direction, t), s);
     }
 }
 

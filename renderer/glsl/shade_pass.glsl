@@ -10,7 +10,6 @@
 
 layout(location = ARGS_LOCATION) uniform ShadeArgs args;
 layout(binding = UNIT_INSCATTERING) uniform sampler2D inscattered;
-layout(binding = UNIT_STEPS) uniform sampler2D steps; /* y: curvature */
 layout(rgba32f, binding = IMAGE_TOTAL) uniform image2D totals; /* light; w: coverage */
 
 void main()
@@ -21,8 +20,7 @@ void main()
     }
     bool first = args.first == 1;
     Surface s = surface_load(here);
-    float ambient_visibility = ambient_visibility_of(here),
-          curvature = texelFetch(steps, here, 0).y;
+    float ambient_visibility = ambient_visibility_of(here), curvature = steps_load(here).y;
     vec4 smoke = args.volumes == 1 ? texelFetch(inscattered, here, 0) : vec4(0.0, 0.0, 0.0, 1.0);
     vec4 throughput = first ? vec4(1.0, 1.0, 1.0, 0.0) : imageLoad(throughputs, here);
     vec3 absorption = first ? vec3(0.0) : imageLoad(absorptions, here).rgb;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* C and GLSL mean the same: members of the uniform block lie where the driver reads them, and every
- * row of lights and volumes has its kind on both sides. */
+ * row of lights, volumes and sources of hits has its kind on both sides. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -143,6 +143,31 @@ static void every_type_of_volume_has_its_extent(void **state)
     assert_int_equal(count, VOLUME_KIND_COUNT);
 }
 
+#define SOURCE_ROW(source) {.a = {source}},
+
+/* Carried beside the most steps that a ray may take. */
+static void every_source_of_hits_has_a_surface(void **state)
+{
+    static const char ask[] =
+        "#include \"gbuffer.glsl\"\n#include \"surface_of.glsl\"\n"
+        "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n"
+        "    Surface s = surface_nothing();\n    float word = steps_pack(65535, int(a.x));\n"
+        "    surface_of(steps_source(word), b.xyz,\n"
+        "               Shading(b.xyz, vec3(0.0), c.xyz, c.xyz, 0.0), s);\n"
+        "    return vec4(float(s.id), float(steps_source(word)), float(steps_count(word)), 0.0);\n"
+        "}\n";
+    struct formula_row rows[] = {GEOMETRY_SOURCES(SOURCE_ROW)};
+    const size_t count = sizeof rows / sizeof rows[0];
+
+    (void)state;
+    formula_run(ask, rows, count);
+    for (size_t i = 0; i < count; i++) {
+        assert_true(rows[i].out[0] > 0);
+        assert_true(rows[i].out[1] == rows[i].a[0]);
+        assert_true(rows[i].out[2] == 65535);
+    }
+}
+
 /* --- texts --- */
 
 /* A file with main() around it, and what it leaves to the pass that includes it. */
@@ -230,6 +255,7 @@ int main(void)
         cmocka_unit_test(members_lie_where_the_driver_reads_them),
         cmocka_unit_test(every_type_of_light_gives_light),
         cmocka_unit_test(every_type_of_volume_has_its_extent),
+        cmocka_unit_test(every_source_of_hits_has_a_surface),
         cmocka_unit_test(each_file_is_whole_by_itself),
         cmocka_unit_test(an_unknown_file_is_told),
         cmocka_unit_test(lines_keep_their_numbers),

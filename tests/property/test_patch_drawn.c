@@ -161,7 +161,7 @@ static void edits_are_drawn(void **state)
     char *text = write_document();
     struct resident *resident = resident_create(renderer, drawing_parse(text), 1);
     struct image first = draw(resident);
-    const struct field *base = resident->newest->field;
+    const struct field *base = resident->newest->geometry.field;
     const uint64_t compiled = renderer_counters(renderer).compilations;
 
     for (int i = 0; i < EDITS; i++) {
@@ -170,8 +170,9 @@ static void edits_are_drawn(void **state)
         begin(one, resident, i % 3 > 0);
         for (size_t left = 1 + random_below(&random, 3); left > 0; left--) {
             edit(&random, resident);
-            assert_ptr_equal(resident->newest->field->base ? resident->newest->field->base
-                                                           : resident->newest->field,
+            assert_ptr_equal(resident->newest->geometry.field->base
+                                 ? resident->newest->geometry.field->base
+                                 : resident->newest->geometry.field,
                              base);
         }
         struct image got = draw(resident), want = draw_anew(resident);
@@ -202,10 +203,10 @@ static void edits_allocate_no_fields(void **state)
     for (int i = 0; i < EDITS; i++) {
         edit(&random, resident);
         size_t found = 0;
-        while (found < count && seen[found] != resident->newest->field) {
+        while (found < count && seen[found] != resident->newest->geometry.field) {
             found++;
         }
-        seen[found] = resident->newest->field;
+        seen[found] = resident->newest->geometry.field;
         count += found == count;
     }
     assert_in_range(count, 1, 3);

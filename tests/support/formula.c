@@ -25,6 +25,12 @@ static const char tail[] = "\nlayout(local_size_x = 8) in;\n"
                            "        rows[i].answer = ask(rows[i].a, rows[i].b, rows[i].c);\n"
                            "    }\n}\n";
 
+/* For `field_surface.glsl`. */
+static const char surface[] =
+    "#include \"mixture.glsl\"\n"
+    "void surface(vec3 p, Shading at, out Surface s)\n{\n"
+    "    Mixture m = mixture(vec3(0.0, 1.0, 0.0));\n    s = surface_begin(m);\n}\n";
+
 int formula_start(void **state)
 {
     const struct device_params params = {.index = -1};
@@ -60,7 +66,8 @@ void formula_run(const char *text, struct formula_row *rows, size_t count)
     GLuint buffer;
 
     assert_true(asprintf(&whole, "%s%s", text, tail) > 0);
-    const struct glsl_file own[] = {{"ask.glsl", whole}, {NULL, NULL}};
+    const struct glsl_file own[] = {
+        {"ask.glsl", whole}, {"field_surface.glsl", surface}, {NULL, NULL}};
     if (!pass_init(&pass, gl, &(struct pass_source){true, NULL, "ask.glsl", own}, &err)) {
         fail_msg("%s: %s", err.place, err.message);
     }

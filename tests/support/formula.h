@@ -18,7 +18,8 @@ int formula_end(void **state);
 /* Between the two. */
 const struct gl *formula_gl(void);
 
-/* `text` has `vec4 ask(vec4 a, vec4 b, vec4 c)`, and includes what that calls. */
+/* `text` has `vec4 ask(vec4 a, vec4 b, vec4 c)`, and includes what that calls. The surface of the
+ * field is leaf 1 everywhere. */
 void formula_run(const char *text, struct formula_row *rows, size_t count);
 
 #endif

@@ -638,7 +638,7 @@ static void picking_agrees(void **state)
         const struct pick_result pick = pick_at(field, &question);
         const float d = ((float *)depth.pixels)[i];
         const uint32_t number = ((uint32_t *)id.pixels)[i];
-        const char *node = number ? field_leaf_id(resident->drawable->field, number) : "";
+        const char *node = number ? field_leaf_id(resident->drawable->geometry.field, number) : "";
         different += pick.hit != (number > 0) || strcmp(node, pick.node) != 0 ||
                      (pick.hit ? fabs(d - pick.distance) > 0.03 * d : d != INFINITY);
     }
@@ -706,7 +706,7 @@ static void loop_budget(void **state)
                          &(struct settings_request){.level = -1}, &newest->extent);
     assert_int_equal(newest->fewer_steps, renderer->info.software);
     if (renderer->info.software) {
-        const long each = 1 + (long)newest->field->loop_trips;
+        const long each = 1 + (long)newest->geometry.field->loop_trips;
         assert_in_range((long)block.max_steps * each, 65535 / 2, 65535);
     } else {
         assert_int_equal(block.max_steps, 1024);
