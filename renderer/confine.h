@@ -19,7 +19,7 @@ struct confinement {
 };
 
 /* Before any other thread runs: no privilege is gained any more by starting a program, all
- * capabilities go, and memory is never written to a file. Says nothing where the kernel refuses. */
+ * capabilities go, and memory is never written to a file. Refusals of the kernel are not told. */
 void confine_privileges(void);
 
 /* Before any other thread runs (Landlock holds for a thread and those that it starts): files are

@@ -16,7 +16,7 @@ enum {
     PATIENT_WORK_MS = 2,  /* after that it works so long beside drawing */
 };
 
-/* The drawing thread has something to draw from now on, or nothing. */
+/* Called by the drawing thread: whether it has something to draw from now on. */
 void patient_draws(bool draws);
 /* Called between two pieces of work of a patient thread: waits while something is drawn, so that
  * pictures find the processors and their caches free, but goes on at times in any case. */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* A document as a portrait of what its tree shows: lights, surroundings, settings and camera are
+/* A document as a portrait of what its tree shows. Lights, surroundings, settings and camera are
  * the same for every portrait, so that pictures of parts of a scene can be compared. The camera
- * looks from the right and a little from above, and its picture, which is to be
- * PORTRAIT_ASPECT times as wide as high, is filled. Of what has no end a box in its middle is
- * shown. Pure; any thread. */
+ * looks from the right and a little from above. The part fills a picture that is PORTRAIT_ASPECT
+ * times as wide as high. A part without an end is cut by a box around its middle. Pure; any
+ * thread. */
 #ifndef RENDERER_PORTRAIT_H
 #define RENDERER_PORTRAIT_H
 

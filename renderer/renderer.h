@@ -41,14 +41,14 @@ struct renderer_params {
     int lanes;            /* of the engine's vectors; 0: the most */
     int threads;          /* of the engine; 0: one for each processor */
     int tile_side;        /* pixels, a multiple of 8; 0: what is good for the device */
-    int code_ms, tile_ms; /* that compiling code, drawing the smallest tile may take of the
-                              * processors; 0: what limits.h says */
+    int code_ms, tile_ms; /* limits of processor time, for compiling code and for drawing the
+                              * smallest tile; 0: those of limits.h */
     void (*log)(void *data, const char *line);
     void *log_data;
-    /* Called before a program with code of users is compiled, which waits until this returns, with
-     * its structure, and with 0 when that is over. May be NULL. */
+    /* Called with the structure before a program with users' code is compiled, and with 0
+     * afterwards. Compilation waits until it returns. May be NULL. */
     void (*on_compile)(void *data, uint64_t structure_hash);
-    /* The same before the picture of an environment is read: its id, and "" when that is over. */
+    /* The same for reading the picture of an environment: with its id, and with "" afterwards. */
     void (*on_read)(void *data, const char *image);
     void *on_compile_data;
     /* Whether the thread that draws has something else to do: asked by any thread that draws,
@@ -87,7 +87,7 @@ struct renderer_counters renderer_counters(const struct renderer *renderer);
 /* Drops what pictures keep for the next ones of their field: benchmarks draw each as the first. */
 void renderer_forget(struct renderer *renderer);
 
-/* A structure whose compiler may never end, as gl/program.h has it; or a picture that is read. */
+/* A compilation, or the reading of a picture, that has used up its time (gl/program.h). */
 struct renderer_stuck {
     uint64_t structure_hash;
     const char *image; /* "": it is the structure */
@@ -103,7 +103,7 @@ struct renderer_verdict {
     char image[ASSET_ID_CHARACTERS + 1]; /* "": of a structure */
     enum error_kind refused;   /* never done again, for this reason; ERROR_NONE: it may be tried */
     int measured_ms, limit_ms; /* of ERROR_TOO_SLOW */
-    int times;                 /* of the usual time that it may take; 0: once */
+    int times;                 /* factor on the usual time limit; 0: 1 */
 };
 /* Applies to existing scenes too. */
 void renderer_judge(struct renderer *renderer, const struct renderer_verdict *verdict);
@@ -140,20 +140,22 @@ char *renderer_webgl(const struct scene *scene, int level, struct error *err);
 /* Takes `scene`. Compiling starts in the background. */
 struct resident *resident_create(struct renderer *renderer, struct scene *scene, uint64_t revision);
 void resident_destroy(struct resident *resident);
-/* Another document; what can be drawn stays until the new one can. Takes `scene`. */
+/* Replaces the document. The old state is drawn until the new one can be. Takes `scene`. */
 void resident_replace(struct resident *resident, struct scene *scene, uint64_t revision);
-/* A scene with its field: what takes long of opening it, and needs no renderer. */
+/* A scene with its compiled field. Making one takes long, and needs no renderer. */
 struct opened_scene {
     struct scene *scene;
     struct field *field; /* NULL: it is none, and `error` says why */
     struct error error;
 };
-/* Takes `scene`. `drawn`: that of the resident that it replaces; NULL: of none. Any thread. */
+/* Takes `scene`. `drawn`: resident_drawn_field of the resident whose scene is replaced; NULL: there
+ * is none. Any thread. */
 struct opened_scene opened_scene_make(struct scene *scene, const struct field *drawn);
-/* What is drawn, or is going to be: what stands in there and is hidden stays in it. The resident's;
- * NULL: none. */
+/* The field that is drawn, or will be. Its hidden nodes stay in the program of the next field
+ * (struct field_options). The resident's; NULL: none. */
 struct field *resident_drawn_field(const struct resident *resident);
-/* As above, of an opened scene, which may be the resident's own. Both take what is in it. */
+/* As above, for an opened scene. Its `scene` may be the resident's own. Both take scene and
+ * field. */
 struct resident *resident_create_opened(struct renderer *renderer,
                                         const struct opened_scene *opened, uint64_t revision);
 void resident_replace_opened(struct resident *resident, const struct opened_scene *opened,
@@ -161,14 +163,14 @@ void resident_replace_opened(struct resident *resident, const struct opened_scen
 /* Applies an edit that the front has already accepted. A numeric edit compiles nothing. */
 bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revision,
                    struct error *err);
-/* The same, but after an edit of more than numbers it is stale, until it is replaced by itself,
- * reopened. */
+/* The same, without compiling. After an edit of more than numbers the resident is stale, until
+ * resident_renew, or resident_replace_opened with its own scene. */
 bool resident_apply(struct resident *resident, const cJSON *ops, uint64_t revision,
                     struct error *err);
 bool resident_is_stale(const struct resident *resident);
 void resident_renew(struct resident *resident); /* reopens it at once */
 const struct scene *resident_scene(const struct resident *resident);
-/* The newest structure where there is code of users in it; else 0. */
+/* The newest structure if it has users' code; else 0. */
 uint64_t resident_structure_with_code(const struct resident *resident);
 uint64_t resident_revision(const struct resident *resident);       /* newest received */
 uint64_t resident_shown_revision(const struct resident *resident); /* newest that can be drawn */
@@ -209,15 +211,16 @@ struct job_desc {
     int level;                   /* enum quality_level; -1: the scene's render settings say it */
     int samples;     /* per axis, 1..4; 0: the level's, or the scene's. Only AOV_COLOR uses it */
     int transparent; /* 1: the background is left out, 0: not; -1: the scene's render settings */
-    bool careful;    /* it ended a process: in the smallest tiles from the start */
-    int patience;    /* times the usual bound on a tile; 0: once */
+    bool careful;    /* drawing it has ended a process: begin with the smallest tiles */
+    int patience;    /* factor on the time limit of a tile; 0: 1 */
     bool exact;      /* wait for the newest revision's shader; else draw what can be drawn now */
-    bool in_rounds;  /* of ever more samples, each a whole picture: JOB_ROUND. Color alone */
+    bool in_rounds;  /* whole pictures of ever more samples (JOB_ROUND); color alone */
     bool sparse;     /* fewer rays than pixels, with one sample; the engine does so for color */
     bool as_floats;  /* give raw values (codec_is_raw), not 8/16-bit pixels */
     bool raw_depth;  /* of AOV_DEPTH at least */
-    /* Ids of nodes: only they and what is below them are seen, inside of what is around them. None,
-     * or none that the scene has: everything is. Compiles nothing. Borrowed for the call. */
+    /* Ids of nodes. Only these and the nodes below them are seen, inside of the nodes around them.
+     * Where the scene has none of them, all nodes are seen. Compiles nothing. Borrowed for the
+     * call. */
     const char *const *isolated;
     size_t isolated_count;
     /* section_type: what it cuts is left out, and throws no shadow. NULL: nothing is cut. Copied.
@@ -245,8 +248,8 @@ struct job *job_create(struct resident *resident, const struct job_desc *desc, s
 /* Draws a sample of each pixel of one tile and returns soon; earlier where the thread is wanted
  * (renderer_params.is_wanted). */
 enum job_state job_step(struct job *job);
-/* A tile has samples and wants more: until it has them no other job that is sampled may be stepped,
- * or this one must be destroyed, because their samples lie in the same textures. */
+/* A tile has some of its samples. Until it has all, no other sampled job may be stepped, unless
+ * this one is destroyed first: the samples of both lie in the same textures. */
 bool job_is_within_tile(const struct job *job);
 /* It has begun, and its pixels have several samples each. */
 bool job_is_sampled(const struct job *job);
@@ -256,11 +259,11 @@ bool job_is_drawn(const struct job *job);
 bool job_step_possible(const struct job *job);
 const struct error *job_error(const struct job *job);
 uint64_t job_revision(const struct job *job);
-/* What it draws: the ids of its nodes by the values of its raw `id` (field/field.h). The job's. */
+/* The field that it draws: field_leaf_id gives the nodes of its raw `id` output. The job's. */
 struct field *job_field(const struct job *job);
-/* The structure of what it draws where there is code of users in it; else 0. */
+/* The structure that it draws if that has users' code; else 0. */
 uint64_t job_structure_with_code(const struct job *job);
-/* Microseconds by enum frame_stage; those that only others know are 0. */
+/* Microseconds by enum frame_stage. Stages that are measured elsewhere are 0. */
 struct job_times {
     uint32_t us[FRAME_STAGES];
 };

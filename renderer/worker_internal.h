@@ -18,8 +18,8 @@ struct worker_scene {
     struct worker_scene *next;
 };
 
-/* A document that is read beside the drawing, or will be, or a large scene whose field is compiled
- * so; and the packets of the scene that have come after it, in their order. */
+/* A document for the reading thread, or a large scene whose field that thread compiles. It holds
+ * the packets of the scene that came later, in their order. */
 struct worker_document {
     struct packet packet; /* by which it came: TO_WORKER_SCENE, or TO_WORKER_EDIT */
     size_t size;          /* about in proportion to the time that it takes */
@@ -93,15 +93,15 @@ void worker_send_broken(struct worker *w, const char *scene, uint64_t revision,
                         const struct error *err, uint64_t structure_hash);
 void worker_send_ready(struct worker *w);
 void worker_send_frame(struct worker *w, const struct worker_job *job);
-/* A compiler may never end, and this process will. */
+/* Reports a compilation or a picture that has used up its time. This process ends then. */
 void worker_send_slow(struct worker *w, const struct renderer_stuck *stuck);
-/* What is compiled, read or drawn from here on, and may end this process. */
+/* Reports what is compiled, read or drawn next, because it may end this process. */
 void worker_send_suspect(struct worker *w, enum packet_to_front kind,
                          const struct packet_suspect *suspect);
 
 /* --- worker.c --- */
 
-/* One that waits for nothing. Borrowed. */
+/* Handles a packet that waits for no document. Borrowed. */
 void worker_on_packet(struct worker *w, const struct packet *packet);
 
 /* --- worker_documents.c --- */
@@ -128,14 +128,14 @@ void worker_announce(struct worker *w);
 void worker_on_compile(void *data, uint64_t structure_hash);
 /* The same of renderer_params.on_read. */
 void worker_on_read(void *data, const char *image);
-/* What its document is to be opened as. Borrowed. */
+/* The task of the reading thread for a packet. Borrowed. */
 struct scene_document worker_document_of(struct worker *w, const struct packet *packet);
-/* It was opened. Takes what is in it. */
+/* Takes a scene that was opened. */
 void worker_on_scene(struct worker *w, const struct packet_scene *packet,
                      const struct opened_scene *opened);
 /* The same of a scene whose field was recompiled. */
 void worker_on_field(struct worker *w, const char *scene, const struct opened_scene *opened);
-/* The scene whose field has to be compiled beside the drawing; NULL: this one's has not. */
+/* The scene, if the reading thread has to compile its field; else NULL. */
 const struct scene *worker_stale_scene(struct worker *w, const char *scene);
 void worker_on_edit(struct worker *w, const struct packet_edit *packet);
 void worker_on_drop(struct worker *w, const char *scene);
@@ -144,7 +144,7 @@ void worker_on_judge(struct worker *w, const struct packet_judge *packet);
 /* --- worker_pictures.c --- */
 
 void worker_drop_job(struct worker *w, struct worker_job **at);
-/* The picture whose turn it is; NULL: none can go on. */
+/* The picture that has the next turn; NULL: none can go on. */
 struct worker_job *worker_choose_job(struct worker *w);
 /* Draws one tile of it, or with NULL tells that nothing is drawn. */
 void worker_step(struct worker *w, struct worker_job *job);

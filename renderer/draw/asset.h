@@ -19,8 +19,8 @@ struct asset {
     struct asset *next;
 };
 
-/* Takes a copy of the file into the list, which begins with the newest; false where it was there.
- * Of those that `is_used` does not know all but the newest few go. */
+/* Adds a copy of the file to the list, which begins with the newest. False: the list has it
+ * already. Drops unused files (`is_used`) but for the newest few. */
 bool assets_add(struct asset **assets, const char *id, const void *bytes, size_t length,
                 bool (*is_used)(void *data, const char *id), void *data);
 /* NULL: none of that name. */

@@ -57,7 +57,7 @@ enum { DRAW_MARKS = 256 }; /* moments taken in a tile; what is beyond counts wit
 /* A tile on its way. */
 struct tile_in_flight {
     GLuint buffers[AOV_COUNT];
-    GLuint rays; /* that followed in each column: 0, or drawn by fragment shaders */
+    GLuint rays; /* numbers of secondary rays, one for each column; 0: no fragment shaders */
     GLsync fence;
     struct tile tile;
     int samples;                /* drawn of each pixel, while there are more to come; else 0 */
@@ -95,15 +95,15 @@ struct draw_picture {
 /* `tile_side`: how many pixels a tile is wide and high, a multiple of 8; 0: what is good for the
  * device. */
 struct draw *draw_create(const struct gl *gl, bool software, int tile_side);
-/* Makes what the device draws with, where it is not there. The first picture that it draws so does
- * it too, and fails where this fails. */
+/* Creates targets and static programs of one kind of shaders, unless they are there. Otherwise the
+ * first picture of that kind creates them, and fails for the same reasons. */
 bool draw_prepare(struct draw *draw, enum shader_kind shader_kind, struct error *err);
 void draw_destroy(struct draw *draw);
-/* The side of a picture's tiles, in pixels: the smallest one, doubled so many times, as far as its
- * samples leave room. In textures a tile shares this side with its margin. */
+/* The side of a picture's tiles, in pixels: the smallest side, doubled so many times, within the
+ * largest that the textures hold. A device's tile and its margin share that side. */
 int draw_tile_side(const struct draw *draw, const struct draw_picture *picture, int doublings);
 uint64_t draw_compilations(const struct draw *draw);
-/* What pictures of the engine keep for the next ones. */
+/* Drops what the engine's pictures have kept for later pictures. */
 void draw_forget(struct draw *draw);
 /* When the engine's tiles shall pause. */
 void draw_set_pause(struct draw *draw, const struct engine_pause *pause);
@@ -128,10 +128,11 @@ void draw_in_rounds(struct draw *draw, struct draw_picture *picture, struct tile
 /* After the last tile: false when all samples are there. */
 bool draw_next_round(struct draw_picture *picture);
 struct picture_rounds draw_rounds(const struct draw_picture *picture);
-/* The first sample of each pixel, or those that the last round left. Where `samples` of the slot is
- * not 0 then, the tile is not finished: draw_tile_more draws one more, and no other picture that is
- * sampled may be drawn until it is 0. A tile that is `paused` is not finished either:
- * draw_tile_more goes on. Other pictures may be drawn meanwhile. */
+/* Draws the first sample of each pixel, or goes on where the last round ended. If `samples` of the
+ * slot is not 0 afterwards, the tile is unfinished, and draw_tile_more draws one more sample. Until
+ * `samples` is 0, no other sampled picture may be drawn. A
+ * `paused` tile is unfinished too: draw_tile_more goes on, and any other picture may be drawn
+ * meanwhile. */
 bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
                struct tile tile, int slot, struct error *err);
 bool draw_tile_more(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,

@@ -28,17 +28,17 @@ struct engine_map *picture_maps(struct picture *picture);
 const struct error *picture_problem(const struct picture *picture);
 uint32_t picture_us(const struct picture *picture); /* time that reading took */
 
-/* What is to be read next, once pictures_allow says so; NULL: nothing, or something is read now,
- * which `*out_reading` is then. */
+/* The next picture to read, which waits for pictures_allow. NULL: there is none, or one is being
+ * read, which `*out_reading` is then. */
 struct picture *pictures_next(struct pictures *pictures, struct picture **out_reading);
 /* `limit_ms`: of the processor, for pictures_stuck. */
 void pictures_allow(struct pictures *pictures, struct picture *picture, int limit_ms);
-/* Takes over what was read; true where there is some. Waits for it, at most `wait_ms`. */
+/* Takes over a picture that was read, after at most `wait_ms`. False: there is none. */
 bool pictures_collect(struct pictures *pictures, int wait_ms);
 /* Time of the processor that the thread has used. */
 int64_t pictures_cpu_us(const struct pictures *pictures);
 
-/* Reading takes more than it may. */
+/* A picture whose reading has used more processor time than it may. */
 struct pictures_stuck {
     const char *id;
     int measured_ms, limit_ms;

@@ -7,7 +7,7 @@
 #include "frame_uniforms.h"
 #include "protocol/picture.h"
 
-/* What of a picture is no number in its frame block. */
+/* The settings that are not in the frame block. */
 struct render_settings {
     enum antialiasing antialiasing; /* never ANTIALIASING_AUTO */
     int samples;                    /* of a pixel, where it is sampled in full */
@@ -18,7 +18,7 @@ struct render_settings {
     bool reflective; /* something reflects: else light is shaded by the simpler program */
 };
 
-/* What is asked of one picture. */
+/* The settings that a request gives. */
 struct settings_request {
     int level;       /* enum quality_level; -1: the scene's */
     int samples;     /* along an axis; 0: the level's or the scene's */

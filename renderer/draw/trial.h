@@ -8,30 +8,31 @@
 
 struct trial {
     int references;
-    bool late; /* the code is drawn already, with other numbers: this one only warns */
+    bool late; /* the code is drawn already, with other numbers: only warnings follow */
     struct field_trial *asks;
-    int64_t us;         /* that it took, as if it had had its part of the time before it came */
+    int64_t us;         /* time used; begins at now_us: a new trial does not go first */
     struct trial *next; /* among those that are under way */
 };
-/* Those under way, in order. The one that took the least goes on, so that none waits for the end of
+/* The trials under way. The one with the least time runs next, so that none waits for the end of
  * another. */
 struct trials {
     struct trial *first;
-    int64_t now_us; /* of the one that went on last */
+    int64_t now_us; /* `us` of the trial that ran last */
 };
 
-/* Under way; NULL: the field has no code. */
+/* Starts a trial of the field's code; NULL: it has none. */
 struct trial *trial_begin(struct trials *trials, struct field *field);
-/* Of the field of a snapshot that takes the program of another one over, with that one's trial: the
- * same, unless numbers of the code are others. `before` NULL: NULL. */
+/* The trial of a snapshot that takes over the program of an earlier one: a reference of the earlier
+ * trial (`before`), or a new trial where numbers of the code have changed. NULL where `before` is
+ * NULL. */
 struct trial *trial_follow(struct trials *trials, struct trial *before, struct field *field);
 struct trial *trial_ref(struct trial *trial);                 /* NULL: NULL */
 void trial_unref(struct trials *trials, struct trial *trial); /* NULL: nothing */
 bool trial_is_over(const struct trial *trial);                /* NULL: it is */
-/* ERROR_NONE: it can be drawn, as far as is known. */
+/* ERROR_NONE: no error is known yet. */
 const struct error *trial_error(const struct trial *trial); /* NULL: ERROR_NONE */
 const struct error *trial_warning(const struct trial *trial);
-/* For so many microseconds; true: one is over. */
+/* Runs trials for so many microseconds. True: one has ended. */
 bool trials_go_on(struct trials *trials, int64_t us);
 
 #endif

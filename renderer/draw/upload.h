@@ -12,29 +12,29 @@ struct upload {
     int references;
     struct field *field;
     struct param_buffer params; /* none until they are asked for */
-    struct field_span stale;    /* those that are others in the field */
+    struct field_span stale;    /* numbers of the field that the device does not have yet */
 };
 
 /* Takes the reference of the field. */
 struct upload *upload_create(struct field *field);
 struct upload *upload_ref(struct upload *upload);
 void upload_unref(struct upload *upload, const struct gl *gl); /* NULL: nothing */
-/* As field_patch: NULL where the field has to be compiled. `spare` (may be NULL): the caller
- * holds its only reference. */
+/* Patches the field (field_patch). NULL: it has to be compiled. `spare` may be NULL; else the
+ * caller holds its only reference. */
 struct upload *upload_patch(struct upload *from, struct upload *spare, const struct scene *scene,
                             const cJSON *ops);
-/* On the device as in the field. `capacity`: vec4s that programs declare. */
+/* Brings the numbers on the device up to date. `capacity`: vec4s that programs declare. */
 const struct param_buffer *upload_params(struct upload *upload, const struct gl *gl, bool software,
                                          size_t capacity);
 
-/* The last patched ones of a scene: one that is drawn, the newest, and one to write into. */
+/* The last patched uploads of a scene: the drawn one, the newest, and one to write into. */
 enum { UPLOADS_KEPT = 3 };
 struct upload_pool {
     struct upload *kept[UPLOADS_KEPT];
 };
-/* One without other references; NULL: none. */
+/* An upload of the pool that has no other reference; NULL: there is none. */
 struct upload *upload_pool_spare(const struct upload_pool *pool);
-/* Keeps it in the place of one that is not held, or of the first. */
+/* Puts it in the place of one that nobody else holds, or of the first. */
 void upload_pool_keep(struct upload_pool *pool, struct upload *upload, const struct gl *gl);
 void upload_pool_empty(struct upload_pool *pool, const struct gl *gl);
 

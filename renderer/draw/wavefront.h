@@ -25,18 +25,17 @@ struct wavefront {
 /* Time spent since the last mark goes to `stage`. */
 void wavefront_mark(struct wavefront *wavefront, enum frame_stage stage);
 
-/* First rays of all samples, as far as stage `last`, which is before shadows. */
+/* Runs the passes of the camera's rays up to stage `last`, which comes before shadows. */
 void wavefront_find(struct wavefront *wavefront, enum program_stage last);
-/* What of lights and environment reaches them. */
+/* Computes the part of each light and of the environment that reaches their hits. */
 void wavefront_shadow(struct wavefront *wavefront);
-/* Their light, with that of all rays that follow, is added to the pixels. */
+/* Adds the light of these rays, and of all rays that follow them, to the pixels. */
 void wavefront_shade(struct wavefront *wavefront);
 /* Lists the pixels that the settings sample again. */
 void wavefront_detect_edges(struct wavefront *wavefront);
-/* For a tile that was left with so many samples, its pixels in the targets again: what comes before
- * more of them. */
+/* Prepares more samples of a tile that has so many. Its pixels are in the targets again. */
 void wavefront_resume(struct wavefront *wavefront, int samples);
-/* All of it again for another sample of all pixels, or of those listed; false: there are none. */
+/* Draws another sample of all pixels, or of the listed ones. False: none is listed. */
 bool wavefront_resample(struct wavefront *wavefront, int sample);
 
 #endif

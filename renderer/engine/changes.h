@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Which numbers an edit has changed: of which operations, and of which materials. */
+/* Finds the operations and the materials whose numbers an edit has changed. */
 #ifndef RENDERER_ENGINE_CHANGES_H
 #define RENDERER_ENGINE_CHANGES_H
 
 #include "engine_internal.h"
 
-/* A set of materials by their slots. Slots so many apart share a place. */
+/* A set of materials by their slots. Slots that are equal modulo MATERIAL_SET share a bit. */
 enum { MATERIAL_SET = 256 };
 struct material_set {
     uint64_t bits[MATERIAL_SET / 64];
@@ -21,14 +21,14 @@ struct extent {
     uint32_t first, end; /* vec4s; empty: it has none */
 };
 
-/* For each operation of the program, which owns them from then on. */
+/* Finds the extents of all operations of a program, which owns them. */
 void changes_find_extents(struct engine_program *program);
 
-/* For each operation of the program whether it has other numbers in `after`: 0 or 1. The caller
- * frees it. NULL: not known, since numbers have changed that belong to none. */
+/* For each operation of the program, 1 if its numbers differ in `after`, else 0. The caller frees
+ * it. NULL: not known, because numbers have changed that belong to no operation. */
 uint8_t *changes_of_operations(const struct engine_program *program, const float *before,
                                const float *after);
-/* Adds the materials that have other numbers. */
+/* Adds the materials whose numbers differ. */
 void changes_of_materials(const struct engine_program *program, const float *before,
                           const float *after, struct material_set *out);
 

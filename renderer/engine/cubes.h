@@ -10,20 +10,20 @@
 
 struct cubes {
     struct cells of[ENGINE_THREADS][ENGINE_SPACES]; /* each thread has its own */
-    struct noted noted[ENGINE_THREADS];             /* what it draws is made of */
-    float *params;                                  /* of the field, that they are right for */
-    uint32_t edit;                                  /* how often these changed */
-    bool renewed;                                   /* for the picture that has them */
+    struct noted noted[ENGINE_THREADS];             /* what its part of a picture depends on */
+    float *params;                                  /* numbers that the cubes are valid for */
+    uint32_t edit;                                  /* counts changes of `params` */
+    bool renewed;                                   /* for the picture that has them now */
     struct seen seen;
 };
 
-/* Those that were kept for this program and are nearest to what the picture needs, renewed for its
- * numbers, or new ones: the caller's. In `*out_picture` a number above 0 that no other has. */
+/* Gives the caller the kept cubes of this program that fit the picture best, renewed for its
+ * numbers, or new ones. `*out_picture` becomes a number above 0 that no other picture has. */
 struct cubes *cubes_take(struct engine_cubes *kept, const struct engine_picture *picture,
                          uint32_t *out_picture);
-/* Keeps them, or frees them. */
+/* Keeps the cubes for the next picture, or frees them. */
 void cubes_give(struct engine_cubes *kept, struct engine_program *program, struct cubes *cubes);
-/* All that a thread's cubes were made anew. */
+/* How often a thread's cubes were made anew, all in all. */
 static inline uint32_t cubes_times(const struct cells spaces[ENGINE_SPACES])
 {
     return spaces[0].times + spaces[1].times + spaces[2].times;

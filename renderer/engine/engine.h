@@ -34,18 +34,20 @@ int engine_map_side(int side, int level);
 
 struct engine_program; /* a field, ready to be run */
 
-/* `lanes`: width of the vectors, 0 for the widest that the processor has. `threads` draw, 0: one
- * for each processor. NULL where the engine has no such width. The field is kept. */
+/* `lanes`: width of the vectors; 0: the widest that the processor has. `threads`: how many draw; 0:
+ * one for each processor. NULL: the engine has no such width. Holds a reference of the field. */
 struct engine_program *engine_program_create(struct field *field, int lanes, int threads);
 /* The widths that the processor has, from the widest; 0 behind the last. */
 int engine_lanes(size_t index);
-/* The same for another field of this shape; NULL: nothing. Each has to be destroyed. */
+/* Another reference, which may be used for another field of this structure. NULL: nothing. Each
+ * reference has to be destroyed. */
 struct engine_program *engine_program_ref(struct engine_program *program);
 void engine_program_destroy(struct engine_program *program);
 
-/* The field at `count` points, of which there is at least one, by what of its program matters in
- * cubes around them of at most this half; INFINITY: by all of it. `params`: of the field, which may
- * be another of the same shape. Answers how many operations ran, summed over the points. */
+/* Evaluates the field at `count` points, at least one. Each point gets the tape of a cube around it
+ * whose half side is at most `half`; INFINITY: the whole program. `params`: the numbers of the
+ * field, which may be another of this structure. Returns the number of operations that ran, summed
+ * over the points. */
 uint64_t engine_distances(const struct engine_program *program, const float *params,
                           const float (*points)[3], size_t count, float half, float *out);
 
@@ -57,7 +59,7 @@ struct engine_picture {
     const float *params; /* of the field; it may be another of the same shape */
     const struct frame_uniforms *frame;
     const struct engine_map *maps[ENGINE_MAPS];
-    uint64_t surroundings; /* what tells these maps from others */
+    uint64_t surroundings; /* identifies these maps */
     enum engine_smoothing smoothing;
     int margin;             /* pixels around a tile that are drawn too, ENGINE_MARGIN at most */
     int rays;               /* of a sample after the first */
@@ -106,14 +108,15 @@ struct engine_drawn {
 /* `picture` is copied; what it points to stays until the canvas is destroyed. */
 struct engine_canvas *engine_canvas_create(struct engine_cubes *cubes,
                                            const struct engine_picture *picture);
-/* Sums of samples are kept for the pixels of `region`, so that tiles can be drawn again with more
- * of them. */
+/* Keeps sums of samples for the pixels of `region`, so that its tiles can get more samples
+ * later. */
 void engine_canvas_keep(struct engine_canvas *canvas, struct engine_rect region);
 void engine_canvas_destroy(struct engine_canvas *canvas);
 
-/* Draws samples `from` to `until` of a tile; those before `from` are kept ones. Where `from` is not
- * 0 and few pixels are sampled, these are those that had all samples before. One call for a canvas
- * at a time. Pixels that are known to be those of the last picture are copied from there. */
+/* Draws samples `from` to `until` of a tile, whose earlier samples are in the kept sums. Where
+ * `from` is not 0 and antialiasing is adaptive, only pixels with all earlier samples get more. One
+ * call for a canvas at a time. Pixels that are known to equal those of the last picture are
+ * copied. */
 struct engine_drawn engine_draw(struct engine_canvas *canvas, struct engine_rect tile, int from,
                                 int until, const struct engine_output *outputs, size_t count,
                                 const struct engine_pause *pause);

@@ -15,7 +15,7 @@ struct extent;
 struct noted;
 struct seen_picture;
 
-/* What runs operations of a kind; a field has few kinds. */
+/* The functions that run operations of one kind. A field has few kinds. */
 struct operation_kind {
     uint8_t op; /* enum field_op */
     uint32_t choices;
@@ -25,7 +25,7 @@ struct operation_kind {
     const struct engine_code *code; /* FIELD_SHAPE: NULL, or a user's, instead of `function` */
 };
 
-/* Small, because long tapes take as long as their operations take to come from memory. */
+/* An operation. It is small, because long tapes are bound by the bandwidth of memory. */
 struct operation {
     uint8_t op;           /* enum field_op */
     bool mixes;           /* FIELD_COMBINE: surfaces mix, or one is chosen */
@@ -43,21 +43,21 @@ struct operation {
 enum { TAPE_INDEX = 0x3fffffff, TAPE_MOVE = 0x40000000 };
 #define TAPE_NEGATE 0x80000000u
 
-/* A cube, and what of the program matters in it. */
+/* A cube of space, and its tape: the operations that matter in it. */
 struct cell {
     int32_t corner[3];        /* its least coordinates, in units of the grid */
     uint8_t bits;             /* its side is 2 to so many of these */
-    bool made;                /* its tape; else it is its parent's */
-    bool splits;              /* smaller ones are worth it; of one with a tape */
-    bool worn;                /* or are by now, because it was used so often */
+    bool made;                /* it has a tape of its own; else it uses its parent's */
+    bool splits;              /* its children are worth their cost; false without an own tape */
+    bool worn;                /* the same, because its tape was used so often */
     uint16_t uses;            /* of its tape, while it is the smallest */
-    uint16_t dropping;        /* all its `drops` in one */
+    uint16_t dropping;        /* the union of its `drops` */
     int32_t parent, children; /* the first of eight; 0: not made yet */
     float distance;           /* of the field in its centre */
     float centre[3], half;    /* the tape holds for LOOSE times this */
     uint32_t tape, count;     /* among the tapes */
     uint32_t drops;           /* what its children's tapes leave out, for each word of its own */
-    uint32_t picture;         /* that `splits` is for: it depends on the camera */
+    uint32_t picture;         /* for which `splits` was decided, by its camera */
     /* Which squares of a part of a picture have used it (tile.c), a bit for each: by running its
      * tape, or as what bound_at() found. */
     uint32_t part;
@@ -74,18 +74,16 @@ struct cells {
     float grid; /* units of the grid in one of length, a power of two */
     struct cell *at;
     struct cell_news *news; /* of each */
-    uint32_t times;         /* that all were made anew */
+    uint32_t times;         /* counts how often all cubes were made anew */
     size_t count, capacity;
     uint32_t *tapes;
     size_t used, room, wasted; /* words; those of tapes that were made again */
     uint16_t *drops;
     size_t drops_used, drops_room;
-    int32_t last; /* that was asked for */
+    int32_t last; /* the cube of the last question */
 };
 
-/* A kernel for a function that a step calls. */
-/* What users' code calls: by a function, or, where a call takes longer than what it does, at
- * once. */
+/* A builtin function that users' code calls. The smallest ones are computed in place. */
 enum engine_direct { CALL_FUNCTION, CALL_MIN, CALL_MAX, CALL_ABS, CALL_CLAMP };
 struct engine_call {
     void (*function)(void);
@@ -141,7 +139,7 @@ struct call_row {
     void (*function)(void);
 };
 
-/* Cubes of the whole field, of that without what light goes through, and of that alone. */
+/* Cubes of all shapes, of the opaque ones, and of the transmissive ones (field_mask). */
 enum { ENGINE_SPACES = 3, ENGINE_THREADS = 64 };
 void cells_finish(struct cells spaces[ENGINE_SPACES]);
 
@@ -152,8 +150,8 @@ struct engine_canvas {
     struct cubes *cubes;
     uint32_t number;                    /* of the picture, above 0 */
     struct seen_picture *seen;          /* what is known of the last such picture; NULL: nothing */
-    bool seeks;                         /* that was not looked for yet */
-    bool verified;                      /* which of its squares are right is known */
+    bool seeks;                         /* `seen` has not been looked up yet */
+    bool verified;                      /* it is known which squares of `seen` are valid */
     struct hand *hands[ENGINE_THREADS]; /* each is made when it is first needed */
     struct engine_rect kept;            /* width 0: nothing is */
     float *pixels, *counted;   /* sums of the kept: four and two for each (glsl/sums.glsl) */
@@ -161,7 +159,7 @@ struct engine_canvas {
     size_t part_count;
 };
 
-/* Of a tile, that a thread draws at once. */
+/* The part of a tile that one thread draws at a time. */
 struct engine_part {
     struct engine_rect rect;
     int thread; /* that has its cubes; -1: any */
@@ -184,14 +182,14 @@ struct engine_width {
     const struct call_row *calls;
     size_t call_count;
     struct engine_drawn (*draw)(struct engine_canvas *canvas, const struct engine_work *work);
-    /* Cubes for other numbers of the field. `changed`: of each operation, whether any of its own
-     * did (changes.h). */
+    /* Renews cubes for new numbers of the field. `changed`: for each operation, whether any of its
+     * numbers changed (changes.h). */
     void (*renew)(struct engine_program *program, struct cubes *cubes, const float *params,
                   const uint8_t *changed);
     void (*hand_destroy)(struct hand *hand); /* NULL is nothing */
     uint64_t (*distances)(const struct engine_program *program, const float *params,
                           const float (*points)[3], size_t count, float half, float *out);
-    /* A level of one of the pictures; all but the first are made of that. */
+    /* Makes a level of one of the maps. All levels but the first are made of the first. */
     void (*make_map)(const struct frame_uniforms *frame, struct engine_map maps[ENGINE_MAPS],
                      int number, int level);
 };
@@ -217,8 +215,8 @@ struct dispatch_block {
     const float *params, *own;                                                                     \
     struct lanes_tile tile;                                                                        \
     struct cells *spaces, *cells;                                                                  \
-    uint32_t picture;    /* its number */                                                          \
-    struct noted *noted; /* what pixels are made of; NULL: nobody asks */                          \
+    uint32_t picture;    /* number of the picture */                                               \
+    struct noted *noted; /* what pixels depend on; NULL: not recorded */                           \
     int threads;         /* that have cells */                                                     \
     struct machine *machine;                                                                       \
     vf **frames;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The last pictures of a field, in squares of pixels, each with what it was made of: the cubes that
  * its rays used, and the materials that they met. After an edit of numbers a square is drawn again
- * only where one of these has changed since; no ray of another can have taken another step, and
- * its pixels are copied. What is not of the field is the picture's key: with other lights, another
- * camera or another bound of the whole field, all is drawn.
+ * only where one of these has changed since. The rays of other squares take the same steps as
+ * before, and their pixels are copied. With other lights, another camera or another bound of the
+ * whole field, all is drawn.
  *
  * Of the drawing thread, but for `struct noted`, which each thread that draws has for itself. */
 #ifndef RENDERER_ENGINE_SEEN_H
@@ -19,12 +19,12 @@ enum {
     SEEN_PICTURES = 3, /* of a field */
 };
 
-/* What the field was at some points. */
+/* Distances of the field at some points. */
 struct noted_value {
     uint32_t cube;     /* around them: noted_word() */
     uint16_t count;    /* of points */
     uint16_t squares;  /* as in `struct noted` */
-    float mask;        /* of what was asked for: glsl/field_mask.glsl */
+    float mask;        /* field_mask of the question: glsl/field_mask.glsl */
     float points[][4]; /* x, y, z and the distance */
 };
 static inline size_t noted_value_bytes(const struct noted_value *value)
@@ -35,8 +35,8 @@ static inline size_t noted_value_bytes(const struct noted_value *value)
 struct seen_square {
     int blocks; /* of SQUARE_BLOCK pixels that show it */
     struct engine_rect rect;
-    uint32_t edit;  /* up to which it is known to be right */
-    uint32_t times; /* that the cubes of its thread had been made anew */
+    uint32_t edit;  /* the newest one for which it is known to be valid */
+    uint32_t times; /* cubes_times() of its thread when it was drawn */
     uint8_t thread;
     bool stale; /* a material of it has changed */
     struct material_set materials;
@@ -49,7 +49,7 @@ struct seen {
     struct seen_picture *pictures[SEEN_PICTURES]; /* the last used first; NULL: none */
 };
 
-/* Whether there is a picture that only an edit tells from this one. */
+/* Whether a kept picture differs from this one by edits of numbers alone. */
 bool seen_has(const struct seen *seen, const struct engine_picture *picture);
 /* That picture, or a new one without a square. NULL: it is too large to be kept. */
 struct seen_picture *seen_open(struct seen *seen, const struct engine_picture *picture,
@@ -63,11 +63,11 @@ void seen_finish(struct seen *seen);
 bool seen_has_changed(const struct cells *spaces, uint32_t word, uint32_t edit);
 /* Each square of it once. `*at`: 0 at first; NULL: there are no more. */
 struct seen_square *seen_next(const struct seen_picture *seen, size_t *at);
-/* Copies what is known of a tile to the outputs. Answers in `*out` the parts that have to be drawn,
- * none with a side over `side`, and how many; the caller frees them. */
+/* Copies the valid squares of a tile to the outputs. `*out` becomes the parts that have to be
+ * drawn, each at most `side` wide and high; the caller frees it. Returns their number. */
 size_t seen_divide(struct seen_picture *seen, const struct cubes *cubes,
                    const struct engine_work *work, int side, struct engine_part **out);
-/* Takes squares that were drawn, and their pixels from the outputs. */
+/* Takes a square that was drawn, and its pixels from the outputs. */
 void seen_take(struct seen_picture *seen, struct seen_square *square,
                const struct engine_work *work);
 
