@@ -747,7 +747,10 @@ describe('the table of messages', () => {
         const files = ['web/src/link/protocol.ts', 'web/src/model/session.ts'];
         const texts = files.map((file) => fs.readFileSync(file, 'utf8')).join('');
         const page = new Set([...texts.matchAll(/\breadonly type: "(\w+)"/g)].map(([, type]) => type));
-        assert.deepEqual([...page].sort(), [...table.client, ...table.server].map(({ type }) => type).sort());
+        const sorted = (rows) => rows.map(({ type }) => type).sort();
+        assert.deepEqual([...page].sort(), sorted([...table.client, ...table.server]));
+        const [, list] = /\bSERVER_TYPES = \{([^}]*)\}/.exec(texts);
+        assert.deepEqual([...list.matchAll(/\w+(?=: true)/g)].map(([type]) => type).sort(), sorted(table.server));
     });
 
     test('stands in protocol/README.md', () => {

@@ -151,17 +151,17 @@ export type ServerMessage =
     | NoticeMessage
     | ByeMessage;
 
-const SERVER_TYPES: readonly string[] = [
-    "welcome",
-    "document",
-    "applied",
-    "changed",
-    "rejected",
-    "picked",
-    "compiling",
-    "notice",
-    "bye",
-] satisfies readonly ServerMessage["type"][];
+const SERVER_TYPES = {
+    welcome: true,
+    document: true,
+    applied: true,
+    changed: true,
+    rejected: true,
+    picked: true,
+    compiling: true,
+    notice: true,
+    bye: true,
+} satisfies Record<ServerMessage["type"], true>;
 
 /* One text frame of the server; null for what this client does not know. */
 export function readMessage(text: string): ServerMessage | null {
@@ -171,7 +171,7 @@ export function readMessage(text: string): ServerMessage | null {
     } catch {
         return null;
     }
-    return isObject(json) && typeof json.type === "string" && SERVER_TYPES.includes(json.type)
+    return isObject(json) && typeof json.type === "string" && Object.hasOwn(SERVER_TYPES, json.type)
         ? (json as unknown as ServerMessage)
         : null;
 }
