@@ -13,6 +13,7 @@ enum bench_part {
     BENCH_DRAWING,
     BENCH_GROWTH,
     BENCH_CHANGES,
+    BENCH_STAGES,
     BENCH_DOCUMENTS,
     BENCH_EDITS
 };
@@ -52,9 +53,14 @@ bool bench_medians(struct renderer *renderer, struct resident *resident,
                    const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
 
 /* Adds `fragment_ratio` and `engine_ratio`: the time of a picture by compute shaders, divided by
- * its time by fragment shaders and by the engine. */
-bool bench_stages(struct renderer *renderer, const struct embedded *example,
-                  const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
+ * its time by fragment shaders and by the engine; and `fragment_differs` and `engine_differs`: the
+ * part of its pixels in which the two pictures differ by more than 1/255. */
+bool bench_compare_stages(struct renderer *renderer, const struct embedded *example,
+                          const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
+
+/* One row of that for each example, or for the example `only`, with small pictures. */
+cJSON *bench_stages(const struct renderer_params *params, const char *only,
+                    const struct bench_effort *effort, struct error *err);
 
 /* Adds `effects_off_ratio`: the time of the example with reflections and refractions off, divided
  * by its time with materials that need neither. */

@@ -8,7 +8,11 @@
 #include "protocol/memory.h"
 #include "server/clock.h"
 
-enum { PATIENCE_MS = 50 };
+enum {
+    PATIENCE_MS = 50,
+    STEPS = 1, /* of 255, by which two pictures may differ */
+    PIXEL_BYTES = 4,
+};
 
 bool bench_draw(struct renderer *renderer, struct resident *resident, const struct job_desc *desc,
                 struct job_times *out_times, struct error *err)
@@ -112,9 +116,42 @@ static bool compare(struct renderer *renderer, struct resident *const both[2],
 
 /* --- what computes pictures --- */
 
+/* The part of the pixels that are not the same in both. */
+static double different_part(const struct image *a, const struct image *b)
+{
+    const uint8_t *const pixels[] = {a->pixels, b->pixels};
+    const size_t count = a->bytes / PIXEL_BYTES;
+    size_t different = 0;
+
+    for (size_t i = 0; i < count; i++) {
+        bool same = true;
+        for (size_t j = i * PIXEL_BYTES; j < (i + 1) * PIXEL_BYTES; j++) {
+            same = same && abs(pixels[0][j] - pixels[1][j]) <= STEPS;
+        }
+        different += !same;
+    }
+    return (double)different / (double)count;
+}
+
+/* Adds that of two residents' pictures. */
+static bool add_difference(struct resident *const both[2], const struct job_desc *desc,
+                           const char *name, cJSON *row, struct error *err)
+{
+    struct image images[2] = {0};
+    const bool ok = both[0] && both[1] && renderer_render(both[0], desc, &images[0], err) &&
+                    renderer_render(both[1], desc, &images[1], err);
+
+    if (ok) {
+        cJSON_AddNumberToObject(row, name, different_part(&images[0], &images[1]));
+    }
+    image_finish(&images[0]);
+    image_finish(&images[1]);
+    return ok;
+}
+
 static bool compare_stages(struct renderer *renderer, const struct embedded *example,
                            const struct job_desc *desc, int rounds, enum render_stage other,
-                           const char *name, cJSON *row, struct error *err)
+                           const char *const names[2], cJSON *row, struct error *err)
 {
     const enum render_stage stages[] = {RENDER_COMPUTE, other};
     const enum render_stage before = renderer_info(renderer)->stage;
@@ -125,18 +162,21 @@ static bool compare_stages(struct renderer *renderer, const struct embedded *exa
         both[i] = bench_open(renderer, example, err);
     }
     renderer_use_stage(renderer, before);
-    return compare(renderer, both, desc, rounds, name, row, err);
+    const bool drawn = add_difference(both, desc, names[1], row, err);
+    return compare(renderer, both, desc, rounds, names[0], row, err) && drawn;
 }
 
-bool bench_stages(struct renderer *renderer, const struct embedded *example,
-                  const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
+bool bench_compare_stages(struct renderer *renderer, const struct embedded *example,
+                          const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
 {
+    static const char *const fragment[] = {"fragment_ratio", "fragment_differs"};
+    static const char *const engine[] = {"engine_ratio", "engine_differs"};
+
     if (renderer_info(renderer)->none) {
         return true;
     }
-    return compare_stages(renderer, example, desc, rounds, RENDER_FRAGMENT, "fragment_ratio", row,
-                          err) &&
-           compare_stages(renderer, example, desc, rounds, RENDER_ENGINE, "engine_ratio", row, err);
+    return compare_stages(renderer, example, desc, rounds, RENDER_FRAGMENT, fragment, row, err) &&
+           compare_stages(renderer, example, desc, rounds, RENDER_ENGINE, engine, row, err);
 }
 
 /* --- what effects cost where they are switched off --- */

@@ -15,7 +15,7 @@
 #include "server/clock.h"
 #include "server/embedded.h"
 
-enum { FIRST_SIDE = 64 };
+enum { FIRST_SIDE = 64, STAGES_WIDTH = 96, STAGES_HEIGHT = 54 };
 
 static const struct {
     int width, height;
@@ -204,7 +204,7 @@ static cJSON *measure_size(struct renderer *renderer, struct resident *resident,
     cJSON_AddNumberToObject(row, "height", desc->height);
     const int rounds = task->effort.rounds;
     if (!bench_medians(renderer, resident, desc, rounds, row, err) ||
-        !bench_stages(renderer, task->example, desc, rounds, row, err)) {
+        !bench_compare_stages(renderer, task->example, desc, rounds, row, err)) {
         cJSON_Delete(row);
         return NULL;
     }
@@ -314,27 +314,83 @@ cJSON *bench_renderer(const struct renderer_params *params, struct error *err)
     return in_child(describe, &(struct task){.params = params}, err);
 }
 
-cJSON *bench_drawing(const struct renderer_params *params, const char *only,
-                     const struct bench_effort *effort, struct error *err)
+/* A row of each example that is asked for, each measured by `measure`. */
+static cJSON *for_examples(const struct task *like, const char *only, measurement *measure,
+                           struct error *err)
 {
     cJSON *rows = cJSON_CreateArray();
 
     for (size_t i = 0; i < examples_count; i++) {
-        struct task task = {params, &examples_table[i], *effort};
+        struct task task = *like;
+        task.example = &examples_table[i];
         if (only && strcmp(only, task.example->path) != 0) {
             continue;
         }
         fprintf(stderr, "fieldcast: drawing %s\n", task.example->path);
-        cJSON *row = in_child(measure_pictures, &task, err);
-        cJSON *first = row ? measure_compiling(&task, err) : NULL;
-        if (!first) {
-            cJSON_Delete(row);
+        cJSON *row = measure(&task, err);
+        if (!row) {
             cJSON_Delete(rows);
             return NULL;
         }
-        cJSON_AddItemToObject(row, "first_picture", first);
         cJSON_AddItemToArray(rows, row);
     }
+    return rows;
+}
+
+static cJSON *measure_example(const struct task *task, struct error *err)
+{
+    cJSON *row = in_child(measure_pictures, task, err);
+    cJSON *first = row ? measure_compiling(task, err) : NULL;
+
+    if (!first) {
+        cJSON_Delete(row);
+        return NULL;
+    }
+    cJSON_AddItemToObject(row, "first_picture", first);
+    return row;
+}
+
+cJSON *bench_drawing(const struct renderer_params *params, const char *only,
+                     const struct bench_effort *effort, struct error *err)
+{
+    const struct task task = {.params = params, .effort = *effort};
+    cJSON *rows = for_examples(&task, only, measure_example, err);
+
     add_ratios(rows);
     return rows;
+}
+
+/* --- what computes pictures --- */
+
+static cJSON *measure_stages(const struct task *task, struct error *err)
+{
+    const struct job_desc desc = {.width = STAGES_WIDTH,
+                                  .height = STAGES_HEIGHT,
+                                  .level = QUALITY_INTERACTIVE,
+                                  .exact = true};
+    struct renderer *renderer = renderer_create(task->params, err);
+    cJSON *row = cJSON_CreateObject();
+
+    cJSON_AddStringToObject(row, "example", task->example->path);
+    const bool ok = renderer && bench_compare_stages(renderer, task->example, &desc,
+                                                     task->effort.rounds, row, err);
+    renderer_destroy(renderer);
+    if (!ok) {
+        cJSON_Delete(row);
+        return NULL;
+    }
+    return row;
+}
+
+static cJSON *compare_example(const struct task *task, struct error *err)
+{
+    return in_child(measure_stages, task, err);
+}
+
+cJSON *bench_stages(const struct renderer_params *params, const char *only,
+                    const struct bench_effort *effort, struct error *err)
+{
+    const struct task task = {.params = params, .effort = *effort};
+
+    return for_examples(&task, only, compare_example, err);
 }

@@ -39,8 +39,8 @@ double bench_ms_since(int64_t start_us)
 
 const char *bench_part_name(size_t part)
 {
-    static const char *const names[] = {"all",     "drawing",   "growth",
-                                        "changes", "documents", "edits"};
+    static const char *const names[] = {"all",    "drawing",   "growth", "changes",
+                                        "stages", "documents", "edits"};
 
     return part < sizeof names / sizeof names[0] ? names[part] : NULL;
 }
@@ -68,6 +68,8 @@ static cJSON *measure(const struct options *options, enum bench_part part, struc
         return bench_growth(&params, &effort, err);
     case BENCH_CHANGES:
         return bench_changes(&params, &effort, err);
+    case BENCH_STAGES:
+        return bench_stages(&params, option_text(options, OPTION_ONLY), &effort, err);
     case BENCH_DOCUMENTS:
         return bench_documents(&params, err);
     case BENCH_EDITS:
@@ -92,8 +94,9 @@ int command_bench(const struct options *options)
     cJSON_AddNumberToObject(result, "rounds", option_int(options, OPTION_ROUNDS));
     bool ok = add(result, "renderer", measure(options, BENCH_ALL, &err));
     for (enum bench_part part = BENCH_DRAWING; ok && bench_part_name(part); part++) {
-        const bool of_all = part != BENCH_GROWTH && part != BENCH_CHANGES;
-        if (asked == part || (asked == BENCH_ALL && !(only && !of_all))) {
+        const bool of_examples = part != BENCH_GROWTH && part != BENCH_CHANGES;
+        const bool of_all = part != BENCH_STAGES && (!only || of_examples); /* drawing has stages */
+        if (asked == part || (asked == BENCH_ALL && of_all)) {
             ok = add(result, bench_part_name(part), measure(options, part, &err));
         }
     }

@@ -284,7 +284,7 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_PART] = {"part", 0, "WORD", OPTION_CHOICE, .choice = bench_part_name,
         .fallback = "all", .commands = FOR(BENCH),
         .doc = "What is measured: drawing of the examples, growth with the number of shapes, "
-               "pictures after changes, documents, edits."},
+               "pictures after changes, pictures of all stages side by side, documents, edits."},
     [OPTION_REFERENCE] = {"reference", 0, NULL, OPTION_FLAG, .commands = FOR(SCHEMA),
         .doc = "Print the reference page, in Markdown, instead."},
     [OPTION_PASS] = {"pass", 0, "NAME", OPTION_CHOICE, .choice = renderer_pass_name,

@@ -512,6 +512,18 @@ test('bench prints JSON of drawing, compiling, encoding and storing', () => {
     assert.equal(run(['bench', '--only', 'nothing']).status, 2);
 });
 
+test('bench tells how the pictures of compute shaders, fragment shaders and the engine differ', () => {
+    const args = ['bench', '--part', 'stages', '--only', 'first-steps', '--rounds', '1'];
+    const { stages } = JSON.parse(succeed(args).out);
+    const [row] = stages;
+    assert.equal(stages.length, 1);
+    assert.equal(row.example, 'first-steps');
+    assert.ok(row.fragment_ratio > 0 && row.engine_ratio > 0);
+    for (const part of [row.fragment_differs, row.engine_differs]) {
+        assert.ok(part >= 0 && part < 0.01, `${part}`);
+    }
+});
+
 test('a signal from the terminal, which reaches the worker too, drains', async () => {
     const args = ['serve', '--port', '0', '--data', path.join(folder, 'made/for/it')];
     const daemon = spawn(program, args, { detached: true, stdio: ['ignore', 'pipe', 'pipe'] });
