@@ -130,9 +130,8 @@ bool draw_next_round(struct draw_picture *picture);
 struct picture_rounds draw_rounds(const struct draw_picture *picture);
 /* Draws the first sample of each pixel, or goes on where the last round ended. If `samples` of the
  * slot is not 0 afterwards, the tile is unfinished, and draw_tile_more draws one more sample. Until
- * `samples` is 0, no other sampled picture may be drawn. A
- * `paused` tile is unfinished too: draw_tile_more goes on, and any other picture may be drawn
- * meanwhile. */
+ * `samples` is 0, no other sampled picture may be drawn. A `paused` tile is unfinished too:
+ * draw_tile_more goes on, and any other picture may be drawn meanwhile. */
 bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
                struct tile tile, int slot, struct error *err);
 bool draw_tile_more(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
