@@ -43,7 +43,8 @@ void frame_header_pack(const struct frame_header *header, uint8_t out[FRAME_HEAD
     }
     put(&at, header->round, 1);
     put(&at, header->rounds, 1);
-    put(&at, 0, 2);
+    put(&at, header->chain, 1);
+    put(&at, header->link, 1);
     for (int i = 0; i < FRAME_STAGES; i++) {
         put(&at, header->stage_us[i], 4);
     }
@@ -71,7 +72,8 @@ bool frame_header_unpack(const uint8_t *bytes, size_t length, struct frame_heade
     }
     header.round = (uint8_t)take(&at, 1);
     header.rounds = (uint8_t)take(&at, 1);
-    take(&at, 2);
+    header.chain = (uint8_t)take(&at, 1);
+    header.link = (uint8_t)take(&at, 1);
     for (int i = 0; i < FRAME_STAGES; i++) {
         header.stage_us[i] = (uint32_t)take(&at, 4);
     }

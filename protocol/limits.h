@@ -109,6 +109,10 @@
     X(PICK_THROUGH, "pick_through", 32, "nodes", "nodes that a pick lists")                        \
     X(ISOLATED, "isolated", 256, "nodes", "nodes that a view isolates")                            \
     X(GUIDE_PIXELS, "guide_pixels", 1048576, "pixels", "a guide; that of a larger view is scaled") \
+    X(DELTA_PIXELS, "delta_pixels", 4194304, "pixels",                                             \
+      "a live picture of which changed squares alone may be sent")                                 \
+    X(DELTAS_BYTES, "deltas_bytes", 134217728, "bytes",                                            \
+      "last pictures of live views, kept for that")                                                \
     X(THUMBNAILS, "thumbnails", 256, "ids", "one list of thumbnails that a client asks for")       \
     X(THUMBNAIL_WIDTH, "thumbnail_width", 192, "pixels", "width of a small thumbnail")             \
     X(THUMBNAIL_NODES, "thumbnail_nodes", 4096, "nodes",                                           \

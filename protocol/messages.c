@@ -86,6 +86,8 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
           .doc = "true: a frame at rest tells which node each pixel shows."}},
         {.param = {"depths", PARAM_BOOL,
           .doc = "true: a frame of a moving view tells how far its pixels are."}},
+        {.param = {"deltas", PARAM_BOOL,
+          .doc = "true: a frame may be what differs from an earlier one."}},
         {.param = {"isolate", .max = LIMIT_ISOLATED,
           .doc = "Ids: this client's pictures and picks show these nodes and what is below them."
                  " Absent, or none in the scene: all."},

@@ -57,6 +57,7 @@ enum frame_flag {
     FRAME_LOSSLESS = 4, /* these are the pixels of image.png at this revision and view */
     FRAME_STALE = 8,    /* the scene is already newer than the picture: its shader compiles */
     FRAME_DEPTHS = 16,  /* depths of its blocks follow the picture */
+    FRAME_DELTA = 32,   /* it is what differs from the last picture of its chain */
 };
 
 struct frame_header {
@@ -69,6 +70,8 @@ struct frame_header {
     uint16_t width, height;           /* of the picture */
     uint16_t view_width, view_height; /* of the view that it fills */
     uint8_t round, rounds;            /* which of how many rounds of samples it is, from 1 */
+    uint8_t chain;                    /* a delta is of the last picture of its chain; 0: of none */
+    uint8_t link;                     /* counts the deltas since the chain's last key, modulo 256 */
     uint32_t stage_us[FRAME_STAGES];
 };
 

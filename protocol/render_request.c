@@ -17,10 +17,13 @@ const struct record_type delivery_type = {"delivery", "How a picture comes to wh
     {"sparse", PARAM_BOOL, .doc = "Fewer rays than pixels, where these are alike."},
     {"chroma_halved", PARAM_BOOL, .doc = "JPEG with a quarter of the colours."},
     {"fast", PARAM_BOOL, .doc = "PNG that is quick to write."},
-    {"key", PARAM_BOOL, .doc = "Decodes without earlier pictures of the stream."},
     {"zipped", PARAM_BOOL, .doc = "A ZIP also of one picture."},
     {"guide", PARAM_BOOL, .doc = "A guide instead of pictures; of the output id, raw."},
     {"depths", PARAM_BOOL, .doc = "Depths of its blocks behind the picture; of color and depth."},
+    {"stream", PARAM_TEXT, .doc = "Name of the stream that goes on with it."},
+    {"base", PARAM_INT, .min = 0, .max = 2147483647,
+     .doc = "The order of the last picture that the client has of the stream; 0: none."},
+    {"whole", PARAM_BOOL, .doc = "Behind a difference from that the whole picture too."},
     {.name = NULL}}};
 /* clang-format on */
 

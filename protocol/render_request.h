@@ -25,9 +25,10 @@ struct render_request {
  * `in_rounds`: of ever more samples, each a whole picture;
  * `sparse`: of fewer rays than pixels, for a picture that moves;
  * `chroma_halved`: JPEG 4:2:0; `fast`: PNG that is quick to write; `zipped`: a ZIP also of one;
- * `key`: it decodes without earlier pictures of the stream; `guide`: a CODEC_GUIDE, of the output
- * id as NPY; `depths`: those of blocks of pixels behind the picture, of the outputs color and
- * depth. */
+ * `guide`: a CODEC_GUIDE, of the output id as NPY; `depths`: those of blocks of pixels behind the
+ * picture, of the outputs color and depth; `stream`: the name of a stream that goes on from the
+ * picture of the order `base` to this one, 0: from none; `whole`: where it is a difference from
+ * that, the whole picture too. */
 extern const struct record_type delivery_type;
 
 /* A colour picture of the usual size, PNG. */

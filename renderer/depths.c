@@ -8,6 +8,7 @@
 
 #include <zlib.h>
 
+#include "delta.h"
 #include "protocol/memory.h"
 
 enum {
@@ -25,12 +26,24 @@ struct depths {
     int row; /* the next one of pixels */
 };
 
-static void *open_depths(void *about)
+static void *open_behind(const struct stream_class *class)
 {
     struct depths *depths = memory_alloc(1, sizeof *depths);
 
-    depths->picture = stream_encoder_open(&picture_stream, about);
+    depths->picture = stream_encoder_open(class, NULL);
     return depths;
+}
+
+static void *open_depths(void *about)
+{
+    (void)about;
+    return open_behind(&picture_stream);
+}
+
+static void *open_depths_delta(void *about)
+{
+    (void)about;
+    return open_behind(&delta_stream);
 }
 
 static void divide(struct depths *depths, const struct image *shape)
@@ -56,7 +69,9 @@ static bool begin(void *state, const struct image shapes[AOV_COUNT],
     struct depths *depths = state;
     struct image color[AOV_COUNT] = {[AOV_COLOR] = shapes[AOV_COLOR]};
 
-    (void)key; /* each is one */
+    if (key) {
+        stream_encoder_ask_key(depths->picture);
+    }
     if (shapes[AOV_DEPTH].format != PIXEL_FLOAT || shapes[AOV_DEPTH].width == 0) {
         return error_set(err, ERROR_INTERNAL, "depths", "need raw distances");
     }
@@ -171,7 +186,12 @@ static bool end(void *state, struct stream_packet *out, struct error *err)
 {
     struct depths *depths = state;
 
-    return stream_encoder_end(depths->picture, out, err) && write_depths(depths, err);
+    const bool ok = stream_encoder_end(depths->picture, out, err) && write_depths(depths, err);
+
+    if (!ok) {
+        stream_encoder_ask_key(depths->picture); /* it may have ended well */
+    }
+    return ok;
 }
 
 static void close_depths(void *state)
@@ -184,3 +204,4 @@ static void close_depths(void *state)
 }
 
 const struct stream_class depths_stream = {open_depths, begin, add, end, close_depths};
+const struct stream_class depths_delta_stream = {open_depths_delta, begin, add, end, close_depths};

@@ -8,7 +8,7 @@
 
 #include "stream_encoder.h"
 
-/* About nothing. */
-extern const struct stream_class depths_stream;
+/* About nothing. Behind files, and behind pictures of delta.h. */
+extern const struct stream_class depths_stream, depths_delta_stream;
 
 #endif

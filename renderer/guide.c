@@ -255,7 +255,7 @@ static bool end_guide(void *state, struct stream_packet *out, struct error *err)
     }
     free(bytes);
     forget(guide);
-    *out = (struct stream_packet){CODEC_GUIDE, true};
+    *out = (struct stream_packet){.codec = CODEC_GUIDE, .key = true};
     return ok;
 }
 

@@ -37,5 +37,6 @@ struct encode_params encode_params_of(const struct render_request *request)
         .chroma_halved = render_request_is(request, "chroma_halved"),
         .fast = render_request_is(request, "fast"),
         .zipped = render_request_is(request, "zipped"),
+        .whole = render_request_is(request, "whole"),
     };
 }

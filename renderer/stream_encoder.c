@@ -8,15 +8,14 @@
 struct stream_encoder {
     const struct stream_class *class;
     void *state;
-    bool asked;  /* for a key */
-    bool broken; /* the last picture is not whole: nothing to build on */
+    bool asked; /* for a key */
 };
 
 struct stream_encoder *stream_encoder_open(const struct stream_class *class, void *about)
 {
     struct stream_encoder *stream = memory_alloc(1, sizeof *stream);
 
-    *stream = (struct stream_encoder){.class = class, .state = class->open(about), .broken = true};
+    *stream = (struct stream_encoder){.class = class, .state = class->open(about), .asked = true};
     return stream;
 }
 
@@ -28,11 +27,7 @@ void stream_encoder_ask_key(struct stream_encoder *stream)
 bool stream_encoder_begin(struct stream_encoder *stream, const struct image shapes[AOV_COUNT],
                           const struct encode_params *params, FILE *out, struct error *err)
 {
-    const bool key = stream->asked || stream->broken;
-
-    stream->asked = false;
-    stream->broken = true;
-    return stream->class->begin(stream->state, shapes, params, key, out, err);
+    return stream->class->begin(stream->state, shapes, params, stream->asked, out, err);
 }
 
 bool stream_encoder_add(struct stream_encoder *stream, enum aov aov, const struct image *rows,
@@ -43,8 +38,10 @@ bool stream_encoder_add(struct stream_encoder *stream, enum aov aov, const struc
 
 bool stream_encoder_end(struct stream_encoder *stream, struct stream_packet *out, struct error *err)
 {
-    stream->broken = !stream->class->end(stream->state, out, err);
-    return !stream->broken;
+    const bool ok = stream->class->end(stream->state, out, err);
+
+    stream->asked = stream->asked && !ok;
+    return ok;
 }
 
 void stream_encoder_close(struct stream_encoder *stream)
@@ -97,7 +94,7 @@ static bool end_picture(void *state, struct stream_packet *out, struct error *er
     struct pictures *pictures = state;
     const bool ok = picture_file_end(pictures->file, err);
 
-    *out = (struct stream_packet){picture_file_codec(pictures->file), true};
+    *out = (struct stream_packet){.codec = picture_file_codec(pictures->file), .key = true};
     drop(pictures);
     return ok;
 }

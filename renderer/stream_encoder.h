@@ -13,13 +13,14 @@
 /* Describes the bytes of a picture. */
 struct stream_packet {
     enum codec codec;
-    bool key; /* it decodes alone; else with all since the last key */
+    bool key;           /* it decodes alone; else with all since the last key */
+    size_t whole_bytes; /* of these, the last ones: the file of the whole picture; 0: none */
 };
 
 /* `open` gets what its pictures are about, as the class has it, and holds it until `close`; the
  * owner of the stream calls both. `begin` takes a picture of these outputs, the last one's rows all
- * in or given up, and writes it to `out`; with `key` it may use no earlier one. Each fails as
- * image/encode.h has it. */
+ * in or given up, and writes it to `out`; with `key` it may use no earlier one. A picture that is
+ * given up, or fails, is as if it had never been begun. Each fails as image/encode.h has it. */
 struct stream_class {
     void *(*open)(void *about);
     bool (*begin)(void *state, const struct image shapes[AOV_COUNT],
@@ -36,7 +37,7 @@ struct stream_encoder;
 struct stream_encoder *stream_encoder_open(const struct stream_class *class, void *about);
 /* The next picture shall be a key, as the first one is. */
 void stream_encoder_ask_key(struct stream_encoder *stream);
-/* `out` stays the caller's. What was begun before and not ended is given up, and this is a key. */
+/* `out` stays the caller's. What was begun before and not ended is given up. */
 bool stream_encoder_begin(struct stream_encoder *stream, const struct image shapes[AOV_COUNT],
                           const struct encode_params *params, FILE *out, struct error *err);
 bool stream_encoder_add(struct stream_encoder *stream, enum aov aov, const struct image *rows,

@@ -204,6 +204,7 @@ static void finish(struct worker *w)
     while (w->jobs) {
         worker_drop_job(w, &w->jobs);
     }
+    kept_streams_finish(&w->streams);
     turns_finish(&w->turns);
     renderer_destroy(w->renderer);
     packet_reader_finish(&w->in);

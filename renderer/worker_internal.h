@@ -4,6 +4,7 @@
 #define RENDERER_WORKER_INTERNAL_H
 
 #include "encode_thread.h"
+#include "kept_streams.h"
 #include "pulse.h"
 #include "scene_reader.h"
 #include "turns.h"
@@ -39,7 +40,9 @@ struct worker_job {
     struct turn *turn;   /* its account's */
     struct job *drawing; /* NULL once it is drawn, or given up */
     struct encode_params encode;
-    struct stream_encoder *stream; /* of its rounds */
+    struct kept_stream *kept;      /* that goes on with it; NULL: none */
+    struct stream_encoder *stream; /* of its rounds; of `kept` or its own */
+    uint32_t base;                 /* the order whose picture it may be a difference from */
     struct encoding *encoding;
     bool between; /* a round is drawn and being encoded; there are more */
     bool newest;
@@ -68,6 +71,7 @@ struct worker {
     uint64_t openings;               /* begun */
     size_t waiting_bytes;            /* of documents, and of what waits for them */
     struct worker_job *jobs;
+    struct kept_streams streams;
     struct turns turns;
     uint64_t shared_until_us; /* pictures of several clients waited together not long ago */
     uint64_t step_until_us;   /* the step that draws; renderer_params.is_wanted */

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "crash.h"
+#include "delta.h"
 #include "depths.h"
 #include "guide.h"
 #include "patient.h"
@@ -34,7 +35,11 @@ void worker_drop_job(struct worker *w, struct worker_job **at)
     *at = gone->next;
     turns_leave(&w->turns, gone->turn);
     job_destroy(gone->drawing);
-    stream_encoder_close(gone->stream);
+    if (gone->kept) {
+        kept_streams_give_back(&w->streams, gone->kept);
+    } else {
+        stream_encoder_close(gone->stream);
+    }
     free(gone->scene);
     free(gone);
 }
@@ -48,9 +53,32 @@ static bool begin_encoding(struct worker *w, struct worker_job *job, struct erro
         job->width = shapes[i].width ? shapes[i].width : job->width;
         job->height = shapes[i].width ? shapes[i].height : job->height;
     }
+    if (job->kept && (job->base == 0 || job->kept->order != job->base)) {
+        stream_encoder_ask_key(job->stream);
+    }
     job->encoding = encode_thread_begin(w->encode_thread, job->stream, shapes, &job->encode,
                                         job->priority, job, err);
     return job->encoding;
+}
+
+static void open_stream(struct worker *w, const struct render_request *request,
+                        struct worker_job *job)
+{
+    const char *name = record_text(&request->delivery, "stream");
+    const bool depths = render_request_is(request, "depths");
+
+    if (*name) {
+        job->kept =
+            kept_streams_take(&w->streams, name, depths ? &depths_delta_stream : &delta_stream);
+        job->kept->bytes = (size_t)render_request_pixels(request) * sizeof(uint32_t);
+        job->stream = job->kept->encoder;
+        job->base = (uint32_t)record_number(&request->delivery, "base");
+        return;
+    }
+    job->stream = render_request_is(request, "guide")
+                      ? stream_encoder_open(&guide_stream, job_field(job->drawing))
+                  : depths ? stream_encoder_open(&depths_stream, NULL)
+                           : stream_encoder_open(&picture_stream, NULL);
 }
 
 /* The picture's job and its encoding. */
@@ -71,14 +99,7 @@ static bool begin_job(struct worker *w, const struct packet_render *packet, stru
     if (!job->drawing) {
         return false;
     }
-    job->stream = render_request_is(packet->request, "guide")
-                      ? stream_encoder_open(&guide_stream, job_field(job->drawing))
-                  : render_request_is(packet->request, "depths")
-                      ? stream_encoder_open(&depths_stream, NULL)
-                      : stream_encoder_open(&picture_stream, NULL);
-    if (render_request_is(packet->request, "key")) {
-        stream_encoder_ask_key(job->stream);
-    }
+    open_stream(w, packet->request, job);
     job->revision = job_revision(job->drawing);
     job->newest = job->revision == resident_revision(entry->resident);
     return begin_encoding(w, job, err);
@@ -326,6 +347,9 @@ static bool answer(struct worker *w, struct worker_job *job)
 {
     struct error err = job->encoding->error;
 
+    if (job->kept && job->encoding->ok) {
+        job->kept->order = job->number;
+    }
     if (job->answered) {
         return false;
     }

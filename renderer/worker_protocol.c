@@ -92,7 +92,7 @@ static const struct packet_row to_front[TO_FRONT_COUNT] = {
                                 M(BOOL, frame.more), M(INT, frame.rounds.done),
                                 M(INT, frame.rounds.count), M(INT, frame.width),
                                 M(INT, frame.height), M(INT, frame.codec), M(BOOL, frame.key),
-                                M(TIMES, frame.times))},
+                                M(U32, frame.whole_bytes), M(TIMES, frame.times))},
     [TO_FRONT_PROGRESS] = {false, MEMBERS(M(U32, job.job))},
     [TO_FRONT_FAILED] = {false, MEMBERS(M(U32, failed.job), M(BOOL, failed.begun),
                                         M(ERROR, failed.error))},

@@ -31,6 +31,7 @@ struct encode_params {
     bool chroma_halved; /* JPEG 4:2:0 */
     bool fast;          /* PNG level 1, filter SUB: for streaming; the pixels are the same */
     bool zipped;        /* a ZIP also of one output */
+    bool whole;         /* of a stream: behind a difference the file of the whole picture too */
     size_t limit_bytes; /* of the file; 0: none */
 };
 /* `*out_bytes` is malloc'ed. */

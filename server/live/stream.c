@@ -110,6 +110,7 @@ static enum stream_preference find_preference(const char *name)
 static bool same_picture(const struct stream_view *a, const struct stream_view *b)
 {
     return a->preference == b->preference && a->visible == b->visible && a->guides == b->guides &&
+           a->deltas == b->deltas &&
            render_request_equal(&a->picture, &b->picture);
 }
 
@@ -124,6 +125,7 @@ void stream_set_view(struct session *session, const struct message *message)
         .visible = json_member_bool(json, "visible", true),
         .guides = json_member_bool(json, "guides", false),
         .depths = json_member_bool(json, "depths", false),
+        .deltas = json_member_bool(json, "deltas", false),
     };
     struct record *picture = &view.picture.picture;
 
@@ -141,6 +143,7 @@ void stream_set_view(struct session *session, const struct message *message)
     render_request_finish(&stream->views[stream->newest].picture);
     stream->views[stream->newest] = view;
     stream->has_view = true;
+    stream->looks++;
     stream_changed(session);
 }
 
@@ -327,7 +330,24 @@ static uint8_t flags_of(const struct stream *stream, const struct packet_frame *
     const uint8_t flags = stage_rules[stream->job_stage].flags;
 
     return (frame->more ? flags & ~FRAME_LOSSLESS : flags) | (frame->key ? FRAME_KEY : 0) |
-           (newest ? 0 : FRAME_STALE) | (stream->job_depths ? FRAME_DEPTHS : 0);
+           (newest ? 0 : FRAME_STALE) | (stream->job_depths ? FRAME_DEPTHS : 0) |
+           (frame->key ? 0 : FRAME_DELTA);
+}
+
+/* Of rounds the client keeps the last one. */
+static void put_into_chain(struct stream *stream, const struct packet_frame *frame,
+                           struct frame_header *header)
+{
+    struct stream_chain *chain = &stream->chains[stream->job_stage];
+
+    if (!stream->job_deltas || frame->more) {
+        return;
+    }
+    chain->order = frame->job;
+    chain->looks = stream->job_looks;
+    chain->link = frame->key ? 0 : (uint8_t)(chain->link + 1);
+    header->chain = (uint8_t)stream->job_stage;
+    header->link = chain->link;
 }
 
 static struct frame_header header_of(struct session *session, const struct picture_answer *answer,
@@ -339,7 +359,7 @@ static struct frame_header header_of(struct session *session, const struct pictu
         .codec = frame->codec,
         .flags = flags_of(stream, frame, newest),
         .number = ++stream->last_number,
-        .payload_bytes = (uint32_t)answer->length,
+        .payload_bytes = (uint32_t)answer->length - frame->whole_bytes,
         .revision = frame->revision,
         .input = stream->job_seq,
         .width = (uint16_t)frame->width,
@@ -351,6 +371,7 @@ static struct frame_header header_of(struct session *session, const struct pictu
     };
 
     memcpy(header.stage_us, frame->times.us, sizeof header.stage_us);
+    put_into_chain(stream, frame, &header);
     return header;
 }
 
@@ -358,6 +379,28 @@ static struct frame_header header_of(struct session *session, const struct pictu
 static bool shows_all(const struct render_request *picture)
 {
     return picture->isolate.count == 0 && record_is_empty(&picture->section);
+}
+
+static bool becomes_poster(const struct session *session, enum stream_stage stage, enum codec codec)
+{
+    return stage == STREAM_STILL && codec == CODEC_JPEG &&
+           shows_all(&newest_view(session->stream)->picture);
+}
+
+/* The whole picture, which may not be what is sent. */
+static void set_poster(struct session *session, const struct picture_answer *answer,
+                       struct shared_buffer *payload)
+{
+    const size_t bytes = answer->frame->whole_bytes;
+    struct shared_buffer *whole =
+        bytes
+            ? shared_buffer_create((const uint8_t *)answer->bytes + answer->length - bytes, bytes)
+            : shared_buffer_ref(payload);
+
+    if (bytes || answer->frame->key) {
+        poster_set(session->room, whole);
+    }
+    shared_buffer_unref(whole);
 }
 
 static void send_frame(struct session *session, const struct picture_answer *answer)
@@ -368,12 +411,11 @@ static void send_frame(struct session *session, const struct picture_answer *ans
     const bool newest = answer->frame->newest && !(room->scene_error.kind != ERROR_NONE &&
                                                    revision < room->scene_error_revision);
     const struct frame_header header = header_of(session, answer, newest);
-    struct shared_buffer *payload = shared_buffer_create(answer->bytes, answer->length);
+    struct shared_buffer *payload = shared_buffer_create(answer->bytes, header.payload_bytes);
     const uint32_t given_up = send_queue_frame(&session->send_queue, &header, payload);
 
-    if (stream->job_stage == STREAM_STILL && header.codec == CODEC_JPEG && newest &&
-        shows_all(&newest_view(stream)->picture)) {
-        poster_set(session->room, payload);
+    if (newest && becomes_poster(session, stream->job_stage, header.codec)) {
+        set_poster(session, answer, payload);
     }
     shared_buffer_unref(payload);
     if (given_up) {
@@ -419,7 +461,7 @@ static void on_round(void *data, const struct picture_answer *answer)
         line_is_free(session, session->stream->job_stage)) {
         send_frame(session, answer);
     } else {
-        send_queue_skip(&session->send_queue);
+        send_queue_skip(&session->send_queue, 0);
     }
 }
 
@@ -448,6 +490,29 @@ static void put_depth_beside(struct record *picture, enum aov other)
     record_put_text(picture, "aov", text);
 }
 
+/* As what differs from the last picture of the stage, where the client has it and the view is the
+ * same. What that was sent as and lost is in the queue. */
+static void put_stream(const struct session *session, const struct stream_view *view,
+                       enum stream_stage stage, struct render_request *out)
+{
+    const struct stream_chain *chain = &session->stream->chains[stage];
+    const bool follows = chain->looks == session->stream->looks &&
+                         !send_queue_wants_key(&session->send_queue, (uint8_t)stage);
+    char name[LIMIT_ID_BYTES];
+
+    if (!view->deltas || stage == STREAM_GUIDE) {
+        return;
+    }
+    snprintf(name, sizeof name, "%s %d%s", session->id, (int)stage,
+             render_request_is(out, "depths") ? " depths" : "");
+    record_put_text(&out->delivery, "stream", name);
+    record_put(&out->delivery, "base", follows ? chain->order : 0);
+    record_put(&out->delivery, "whole", follows && becomes_poster(session, stage, out->codec));
+    if (follows) { /* what has not changed is copied, or not sent: all samples come soon */
+        record_put(&out->delivery, "in_rounds", false);
+    }
+}
+
 /* The view as a picture of this stage. */
 static void make_request(struct session *session, const struct stream_view *view,
                          enum stream_stage stage, struct render_request *out)
@@ -469,7 +534,6 @@ static void make_request(struct session *session, const struct stream_view *view
     record_put(delivery, "exact", rule->exact);
     record_put(delivery, "sparse", rule->sparse);
     record_put(delivery, "in_rounds", stage == STREAM_LOSSLESS);
-    record_put(delivery, "key", send_queue_wants_key(&session->send_queue));
     record_put(delivery, "guide", stage == STREAM_GUIDE);
     out->codec =
         rule->codec == CODEC_JPEG && !may_be_jpeg(session, picture) ? CODEC_PNG : rule->codec;
@@ -478,6 +542,7 @@ static void make_request(struct session *session, const struct stream_view *view
     if (stage == STREAM_GUIDE || depths) {
         put_depth_beside(picture, depths ? AOV_COLOR : AOV_ID);
     }
+    put_stream(session, view, stage, out);
 }
 
 static void ask(struct session *session, enum stream_stage stage)
@@ -499,6 +564,8 @@ static void ask(struct session *session, enum stream_stage stage)
     stream->job_stage = stage;
     stream->job_pixels = render_request_pixels(&order.request);
     stream->job_depths = render_request_is(&order.request, "depths");
+    stream->job_deltas = *record_text(&order.request.delivery, "stream");
+    stream->job_looks = stream->looks;
     stream->job_seq = view->seq;
     stream->job_view_width = render_request_int(&view->picture, "width");
     stream->job_view_height = render_request_int(&view->picture, "height");

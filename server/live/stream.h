@@ -30,7 +30,8 @@ enum stream_stage {
     STREAM_LARGER,
     STREAM_STILL,
     STREAM_GUIDE,
-    STREAM_LOSSLESS
+    STREAM_LOSSLESS,
+    STREAM_STAGES
 };
 enum stream_preference { PREFER_AUTO, PREFER_SMOOTH, PREFER_SHARP };
 
@@ -42,6 +43,13 @@ enum {
     STREAM_VIEWS = 8,       /* older views that a pick may refer to */
 };
 
+/* The pictures of a stage, of which the client keeps the last one. */
+struct stream_chain {
+    uint32_t order; /* of the last one that was sent; 0: none */
+    uint32_t looks; /* the view that it shows */
+    uint8_t link;   /* deltas sent since the key */
+};
+
 struct stream_view {
     uint32_t seq;                  /* `picture.values` is NULL: there was no view yet */
     struct render_request picture; /* the whole view, with what it leaves out */
@@ -49,12 +57,14 @@ struct stream_view {
     bool visible;
     bool guides; /* wants to know which node each pixel shows, and how far */
     bool depths; /* wants to know how far a moving picture's pixels are */
+    bool deltas; /* takes what differs from earlier pictures */
 };
 
 struct stream {
     struct stream_view views[STREAM_VIEWS]; /* ring, the newest at `newest` */
     int newest;
     bool has_view;
+    uint32_t looks; /* counts views that look different */
 
     int64_t changed_at;     /* clock_ms of the last visible change */
     enum stream_stage done; /* best picture ordered since then */
@@ -68,6 +78,9 @@ struct stream {
     int job_view_width, job_view_height;
     int64_t job_pixels;
     bool job_depths; /* it has depths */
+    bool job_deltas; /* it belongs to the chain of its stage */
+    uint32_t job_looks;
+    struct stream_chain chains[STREAM_STAGES];
 
     uint32_t last_number;
     bool reads; /* has acknowledged a frame */

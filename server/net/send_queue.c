@@ -61,14 +61,19 @@ bool send_queue_text(struct send_queue *queue, struct shared_buffer *text)
     return true;
 }
 
-void send_queue_skip(struct send_queue *queue)
+static uint8_t bit_of(uint8_t chain)
 {
-    queue->linked = false;
+    return (uint8_t)(1U << chain);
 }
 
-bool send_queue_wants_key(const struct send_queue *queue)
+void send_queue_skip(struct send_queue *queue, uint8_t chain)
 {
-    return !queue->linked;
+    queue->linked &= (uint8_t)~bit_of(chain);
+}
+
+bool send_queue_wants_key(const struct send_queue *queue, uint8_t chain)
+{
+    return !(queue->linked & bit_of(chain));
 }
 
 uint32_t send_queue_frame(struct send_queue *queue, const struct frame_header *header,
@@ -81,15 +86,21 @@ uint32_t send_queue_frame(struct send_queue *queue, const struct frame_header *h
     if (slot->payload && slot->begun && slot->precious) {
         slot = &queue->next;
     }
-    queue->linked = key || (queue->linked && !slot->payload);
-    if (!queue->linked) {
+    if (!key && (send_queue_wants_key(queue, header->chain) ||
+                 (slot->payload && slot->chain == header->chain))) {
+        send_queue_skip(queue, header->chain);
         return header->number;
     }
+    if (slot->payload) {
+        send_queue_skip(queue, slot->chain);
+    }
+    queue->linked |= bit_of(header->chain);
     uint32_t given_up = slot->payload ? slot->number : 0;
     frame_clear(slot);
     frame_header_pack(header, slot->header);
     slot->payload = shared_buffer_ref(payload);
     slot->number = header->number;
+    slot->chain = header->chain;
     slot->precious = !(header->flags & FRAME_STILL);
     return given_up;
 }

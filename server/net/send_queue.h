@@ -2,10 +2,10 @@
 /* The send queue of one live connection: messages and the pieces in which they are written. Texts
  * go first; a frame goes in parts between texts. At most one frame waits behind the one being
  * written. A binary message goes behind all of these. Pure; not thread-safe.
- * Frames are a stream. A key frame decodes alone; any other frame needs all frames since the last
- * key. A lost frame therefore makes all frames up to the next key useless; send_queue_wants_key
- * asks for that key. A key replaces the waiting frame. No other frame does, because it needs the
- * waiting one. */
+ * Each chain of frames is a stream. A key frame decodes alone; any other frame needs all frames of
+ * its chain since the last key. A lost frame therefore makes all frames of its chain up to the next
+ * key useless; send_queue_wants_key asks for that key. A frame replaces the waiting one, unless it
+ * needs it. */
 #ifndef SERVER_SEND_QUEUE_H
 #define SERVER_SEND_QUEUE_H
 
@@ -17,6 +17,7 @@
 #include "shared_buffer.h"
 
 enum {
+    SEND_QUEUE_CHAINS = 8,
     SEND_QUEUE_PART_BYTES = 65536,
     SEND_QUEUE_TEXT_BYTES = 2097152, /* most text queued, apart from a first message */
 };
@@ -25,6 +26,7 @@ struct send_queue_frame {
     struct shared_buffer *payload; /* NULL: no frame */
     uint8_t header[FRAME_HEADER_BYTES];
     uint32_t number;
+    uint8_t chain;
     bool precious; /* a moving picture; once begun, it is written to its end */
     size_t sent;   /* payload bytes written */
     bool begun;
@@ -38,7 +40,7 @@ struct send_queue {
     struct send_queue_frame current, next;
     struct shared_buffer *behind; /* NULL: nothing */
     size_t behind_sent;           /* bytes written: once begun, it is written to its end */
-    bool linked;                  /* no frame was lost since the last key */
+    uint8_t linked;               /* a bit for each chain that lost no frame since its last key */
 };
 
 enum send_queue_kind { SEND_QUEUE_TEXT, SEND_QUEUE_BINARY };
@@ -61,9 +63,9 @@ bool send_queue_text(struct send_queue *queue, struct shared_buffer *text);
 uint32_t send_queue_frame(struct send_queue *queue, const struct frame_header *header,
                           struct shared_buffer *payload);
 /* Call it when a frame of the stream is dropped before the queue. */
-void send_queue_skip(struct send_queue *queue);
+void send_queue_skip(struct send_queue *queue, uint8_t chain);
 /* Whether the queue accepts a key frame alone. */
-bool send_queue_wants_key(const struct send_queue *queue);
+bool send_queue_wants_key(const struct send_queue *queue, uint8_t chain);
 /* Queues a binary message that goes when nothing else waits; takes a reference of its own. One that
  * waits is replaced, so the caller waits for an acknowledgement. */
 void send_queue_behind(struct send_queue *queue, struct shared_buffer *message);

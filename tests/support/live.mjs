@@ -69,6 +69,7 @@ export function readFrameHeader(bytes) {
         lossless: Boolean(bytes[6] & 4),
         stale: Boolean(bytes[6] & 8),
         depths: Boolean(bytes[6] & 16),
+        delta: Boolean(bytes[6] & 32),
         number: bytes.readUInt32LE(8),
         bytes: bytes.readUInt32LE(12),
         revision: Number(bytes.readBigUInt64LE(16)),
@@ -79,6 +80,8 @@ export function readFrameHeader(bytes) {
         viewHeight: bytes.readUInt16LE(34),
         round: bytes[36],
         rounds: bytes[37],
+        chain: bytes[38],
+        link: bytes[39],
         version: bytes[4],
         stagesUs: Array.from({ length: bytes[7] }, (_, stage) => bytes.readUInt32LE(40 + 4 * stage)),
     };
