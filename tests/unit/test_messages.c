@@ -215,11 +215,11 @@ static void members_have_fallbacks(void **state)
 }
 
 static const uint8_t frame_bytes[FRAME_HEADER_BYTES] = {
-    'F',  'C',  'F',  '1',  3,    2,    22,   11,   /* version, codec, flags, stages */
+    'F',  'C',  'F',  '1',  3,    2,    54,   11,   /* version, codec, flags, stages */
     4,    3,    2,    1,    8,    7,    6,    5,    /* number, payload bytes */
     0x16, 0x15, 0x14, 0x13, 0x12, 0x11, 0x10, 0x09, /* revision */
     0x24, 0x23, 0x22, 0x21, 0x80, 2,    0x68, 1,    0,  5, 0xd0, 2, /* seq, sides */
-    2,    3,    0,    0,                                            /* round of rounds */
+    2,    3,    5,    9,                                            /* round of rounds, chain, link */
     1,    0,    0,    0,    2,    0,    0,    0,    3,  0, 0,    0, /* stages in their order */
     4,    0,    0,    0,    5,    0,    0,    0,    6,  0, 0,    0, 7,    0,    0,    0,
     8,    0,    0,    0,    9,    0,    0,    0,    10, 0, 0,    0, 0xff, 0xff, 0xff, 0xff,
@@ -227,7 +227,7 @@ static const uint8_t frame_bytes[FRAME_HEADER_BYTES] = {
 
 static const struct frame_header frame = {
     .codec = CODEC_PNG,
-    .flags = FRAME_STILL | FRAME_LOSSLESS | FRAME_DEPTHS,
+    .flags = FRAME_STILL | FRAME_LOSSLESS | FRAME_DEPTHS | FRAME_DELTA,
     .number = 0x01020304,
     .payload_bytes = 0x05060708,
     .revision = 0x0910111213141516,
@@ -238,6 +238,8 @@ static const struct frame_header frame = {
     .view_height = 720,
     .round = 2,
     .rounds = 3,
+    .chain = 5,
+    .link = 9,
     .stage_us = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 0xffffffff},
 };
 

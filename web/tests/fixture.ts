@@ -387,6 +387,7 @@ export const HEADER: FrameHeader = {
     lossless: false,
     stale: false,
     depths: false,
+    delta: false,
     number: 7,
     payloadBytes: 0,
     revision: 12,
@@ -397,5 +398,7 @@ export const HEADER: FrameHeader = {
     viewHeight: 8,
     round: 1,
     rounds: 1,
+    chain: 0,
+    link: 0,
     stages: [],
 };

@@ -158,6 +158,7 @@ const HEADER: FrameHeader = {
     lossless: true,
     stale: true,
     depths: true,
+    delta: true,
     number: 0x01020304,
     payloadBytes: 5,
     revision: 0x123456789a,
@@ -168,6 +169,8 @@ const HEADER: FrameHeader = {
     viewHeight: 720,
     round: 2,
     rounds: 3,
+    chain: 5,
+    link: 9,
     stages: [1, 2, 0x01020304],
 };
 
@@ -176,14 +179,14 @@ test("the header stands at the offsets of the protocol's page", () => {
     const hex = [...bytes].map((byte) => byte.toString(16).padStart(2, "0")).join("");
     expect(hex).toBe(
         "46434631" /* FCF1 */ +
-            "03011d03" +
+            "03013d03" +
             "04030201" +
             "05000000" +
             "9a78563412000000" +
             "4d000000" +
             "8002680100" +
             "05d002" +
-            "02030000" +
+            "02030509" +
             "010000000200000004030201" +
             "010203",
     );

@@ -2,6 +2,7 @@
 /* Puts frames together from their messages and decodes them. Runs in the worker and, where there
  * is none, in the page. */
 import type { Depths } from "../model/warp.ts";
+import { type Chains, pixelsOf } from "./deltas.ts";
 import { splitDepths } from "./depths.ts";
 import type { FrameHeader, Packet } from "./protocol.ts";
 
@@ -65,15 +66,17 @@ export interface Decoded {
     readonly depths: Depths | null;
 }
 
-/* The pixels of a frame, exactly as encoded. Rejects where the payload is damaged. */
-export async function decode({ header, parts }: Frame): Promise<Decoded> {
+/* The pixels of a frame, exactly as encoded. Rejects where the payload is damaged, or where it
+ * differs from a picture that is not there. Frames are told in the order in which they come. */
+export async function decode({ header, parts }: Frame, chains: Chains): Promise<Decoded> {
     const payload = new Blob([...parts], { type: `image/${header.codec}` });
-    const { picture, depths } = header.depths
-        ? await splitDepths(payload, header)
-        : { picture: payload, depths: null };
-    const bitmap = await createImageBitmap(picture, {
-        premultiplyAlpha: "none",
-        colorSpaceConversion: "none",
-    });
-    return { bitmap, depths };
+    const split = header.depths
+        ? splitDepths(payload, header)
+        : Promise.resolve({ picture: payload, depths: null });
+    const picture = split.then((one) => one.picture);
+    if (header.chain > 0 && !header.delta) {
+        chains.keep(header, picture);
+    }
+    const bitmap = header.delta ? chains.compose(header, picture) : picture.then(pixelsOf);
+    return { bitmap: await bitmap, depths: (await split).depths };
 }

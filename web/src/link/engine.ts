@@ -8,6 +8,7 @@ import type { OutgoingEdit } from "../model/session.ts";
 import type { FrameInfo, FrameState, Statistics } from "../model/stores.ts";
 import { nearCamera } from "../model/warp.ts";
 import { type Decoded, decode, type Frame, FrameAssembler } from "./decode.ts";
+import { Chains } from "./deltas.ts";
 import { depthsOfGuide } from "./depths.ts";
 import { decodeGuide } from "./guide.ts";
 import { Meter } from "./meter.ts";
@@ -186,6 +187,9 @@ type Open = Extract<Order, { kind: "open" }>;
 export class Engine {
     readonly #report: (report: Report) => void;
     readonly #assembler = new FrameAssembler();
+    readonly #chains = new Chains();
+    /* Until one of them cannot be put together. */
+    #deltas = Chains.areThere();
     readonly #presenter = new Presenter();
     readonly #meter = new Meter();
     #target: Open | null = null;
@@ -325,6 +329,7 @@ export class Engine {
     #lost(reason: string): void {
         this.#dropWaiting();
         this.#assembler.reset();
+        this.#chains.clear();
         this.#shown = null;
         this.#known = null;
         this.#moved = null;
@@ -355,6 +360,7 @@ export class Engine {
         this.#stopRetry();
         this.#dropWaiting();
         this.#assembler.reset();
+        this.#chains.clear();
         this.#shown = null;
         this.#known = null;
         this.#moved = null;
@@ -412,7 +418,8 @@ export class Engine {
         this.#sent = text;
         this.#seq++;
         const depths = this.#warps() ? { depths: true } : {};
-        this.#send({ type: "view", seq: this.#seq, ...this.#view, ...depths });
+        const deltas = this.#deltas ? { deltas: true } : {};
+        this.#send({ type: "view", seq: this.#seq, ...this.#view, ...depths, ...deltas });
         this.#ask(askedBy(this.#view, this.#camera));
         this.#meter.viewSent(this.#seq, performance.now());
     }
@@ -528,14 +535,23 @@ export class Engine {
             void this.#guide(frame, socket);
             return;
         }
-        decode(frame).then(
+        decode(frame, this.#chains).then(
             (decoded) => this.#decoded(frame, decoded, socket),
             () => {
                 /* A damaged picture is skipped; without its acknowledgement the stream would stop. */
                 this.#meter.frameDropped();
                 this.#acknowledge(frame.header.number, socket);
+                if (frame.header.delta && socket === this.#socket) {
+                    this.#askForWholes();
+                }
             },
         );
+    }
+
+    #askForWholes(): void {
+        this.#deltas = false;
+        this.#sent = "";
+        this.#sendView();
     }
 
     /* A damaged one is skipped. */

@@ -35,6 +35,8 @@ export interface ViewMessage {
     readonly guides: boolean;
     /* Absent: false. */
     readonly depths?: boolean;
+    /* Pictures may come as what differs from earlier ones. */
+    readonly deltas?: boolean;
     /* Ids of the nodes that are shown alone; absent: all are. */
     readonly isolate?: readonly string[];
     /* The plane that cuts the pictures and picks; absent: none. */
@@ -197,6 +199,7 @@ const FLAG_STILL = 2;
 const FLAG_LOSSLESS = 4;
 const FLAG_STALE = 8;
 const FLAG_DEPTHS = 16;
+const FLAG_DELTA = 32;
 
 export interface FrameHeader {
     readonly codec: Codec;
@@ -206,6 +209,8 @@ export interface FrameHeader {
     readonly stale: boolean;
     /* They stand behind the bytes of the picture. */
     readonly depths: boolean;
+    /* It is what differs from the last picture of its chain. */
+    readonly delta: boolean;
     readonly number: number;
     /* Of the whole frame, over all its parts. */
     readonly payloadBytes: number;
@@ -219,6 +224,10 @@ export interface FrameHeader {
     /* Of samples: which one it is, from 1, of how many. */
     readonly round: number;
     readonly rounds: number;
+    /* Of pictures that are kept for what differs from them; 0: of none. */
+    readonly chain: number;
+    /* Counts these differences since the last whole picture, modulo 256. */
+    readonly link: number;
     /* Microseconds, in the order of the schema's stages. */
     readonly stages: readonly number[];
 }
@@ -268,6 +277,7 @@ function readHeader(view: DataView): FrameHeader | null {
         lossless: (flags & FLAG_LOSSLESS) !== 0,
         stale: (flags & FLAG_STALE) !== 0,
         depths: (flags & FLAG_DEPTHS) !== 0,
+        delta: (flags & FLAG_DELTA) !== 0,
         number: view.getUint32(8, true),
         payloadBytes: view.getUint32(12, true),
         revision: Number(view.getBigUint64(16, true)),
@@ -278,6 +288,8 @@ function readHeader(view: DataView): FrameHeader | null {
         viewHeight: view.getUint16(34, true),
         round: view.getUint8(36),
         rounds: view.getUint8(37),
+        chain: view.getUint8(38),
+        link: view.getUint8(39),
         stages: Array.from({ length: stages }, (_, i) =>
             view.getUint32(FRAME_FIXED_BYTES + 4 * i, true),
         ),
@@ -323,7 +335,8 @@ export function packFrame(header: FrameHeader, payload: Uint8Array): ArrayBuffer
             flag(header.still, FLAG_STILL) |
             flag(header.lossless, FLAG_LOSSLESS) |
             flag(header.stale, FLAG_STALE) |
-            flag(header.depths, FLAG_DEPTHS),
+            flag(header.depths, FLAG_DEPTHS) |
+            flag(header.delta, FLAG_DELTA),
     );
     view.setUint8(7, header.stages.length);
     view.setUint32(8, header.number, true);
@@ -335,6 +348,8 @@ export function packFrame(header: FrameHeader, payload: Uint8Array): ArrayBuffer
     });
     view.setUint8(36, header.round);
     view.setUint8(37, header.rounds);
+    view.setUint8(38, header.chain);
+    view.setUint8(39, header.link);
     header.stages.forEach((time, i) => {
         view.setUint32(FRAME_FIXED_BYTES + 4 * i, time, true);
     });
