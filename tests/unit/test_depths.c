@@ -66,14 +66,14 @@ static void add(struct stream_encoder *stream, enum aov aov, void *pixels, int h
 }
 
 /* In bands of so many rows. Caller frees. */
-static uint8_t *encode(float *distances, int band, size_t *out_length)
+static uint8_t *encode_in(struct stream_encoder *stream, float *distances, int band,
+                          size_t *out_length)
 {
     const struct image shapes[AOV_COUNT] = {
         [AOV_COLOR] = {.width = WIDTH, .height = HEIGHT, .channels = 3, .format = PIXEL_RGBA8},
         [AOV_DEPTH] = {.width = WIDTH, .height = HEIGHT, .channels = 1, .format = PIXEL_FLOAT}};
     const struct encode_params params = {.format = CODEC_JPEG, .quality = 60};
     uint8_t *colors = memory_alloc(WIDTH * HEIGHT, 4);
-    struct stream_encoder *stream = stream_encoder_open(&depths_stream, NULL);
     struct stream_packet packet;
     struct error err = {0};
     char *bytes = NULL;
@@ -87,10 +87,18 @@ static uint8_t *encode(float *distances, int band, size_t *out_length)
     }
     assert_true(stream_encoder_end(stream, &packet, &err));
     assert_int_equal(packet.codec, CODEC_JPEG);
-    stream_encoder_close(stream);
     fclose(out);
     free(colors);
     return (uint8_t *)bytes;
+}
+
+static uint8_t *encode(float *distances, int band, size_t *out_length)
+{
+    struct stream_encoder *stream = stream_encoder_open(&depths_stream, NULL);
+    uint8_t *bytes = encode_in(stream, distances, band, out_length);
+
+    stream_encoder_close(stream);
+    return bytes;
 }
 
 /* By their places: nothing in the first rows, then further away to the right. */
@@ -150,6 +158,32 @@ static void a_blade_before_the_eye_is_as_near_as_its_limit(void **state)
     free(distances);
 }
 
+/* The same picture once more: nothing has changed, and the depths are there. */
+static void depths_stand_behind_differences_too(void **state)
+{
+    float *distances = make_distances();
+    struct told whole, told;
+    size_t length;
+
+    (void)state;
+    uint8_t *bytes = encode(distances, HEIGHT, &length);
+    read_back(bytes, length, &whole);
+    free(bytes);
+    struct stream_encoder *stream = stream_encoder_open(&depths_delta_stream, NULL);
+    for (int i = 0; i < 3; i++) {
+        bytes = encode_in(stream, distances, HEIGHT, &length);
+        read_back(bytes, length, &told);
+        assert_memory_equal(told.depths, whole.depths, sizeof told.depths);
+        assert_int_equal(told.start, i == 1 ? 2 : whole.start);
+        free(bytes);
+        if (i == 1) {
+            stream_encoder_ask_key(stream);
+        }
+    }
+    stream_encoder_close(stream);
+    free(distances);
+}
+
 static void nothing_hit_is_all_zero(void **state)
 {
     float *distances = memory_alloc(WIDTH * HEIGHT, sizeof *distances);
@@ -175,6 +209,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blocks_have_the_nearest_of_their_pixels),
         cmocka_unit_test(a_blade_before_the_eye_is_as_near_as_its_limit),
+        cmocka_unit_test(depths_stand_behind_differences_too),
         cmocka_unit_test(nothing_hit_is_all_zero),
     };
 

@@ -725,6 +725,45 @@ static void what_is_asked(void **state)
     assert_int_equal(packet.payload[COLOR_TYPE], RGB);
 }
 
+/* Of a stream that goes on from the picture of an order. */
+static void check_streamed(int job, const char *stream, int base, bool key, const char *more)
+{
+    char members[256];
+
+    snprintf(members, sizeof members, ",'quality':80,'delivery':{'stream':'%s','base':%d,%s}",
+             stream, base, more);
+    send_render(job, 0, 80, 60, members);
+    expect(TO_FRONT_FRAME);
+    assert_int_equal(packet.frame.job, job);
+    assert_int_equal(packet.frame.key, key);
+}
+
+/* The front names the order whose picture its client has: it may be none of the last one. */
+static void streams_go_on_from_what_the_client_has(void **state)
+{
+    (void)state;
+    send_scene("s", 1);
+    check_streamed(1, "a", 0, true, "'exact':true");
+    check_streamed(2, "a", 1, false, "'exact':true");
+    assert_int_equal(packet.payload_length, 2);
+    check_streamed(3, "a", 2, false, "'whole':true");
+    assert_int_equal(packet.payload_length, 2 + packet.frame.whole_bytes);
+    assert_memory_equal(packet.payload + 3, "PNG", 3);
+    check_streamed(4, "b", 3, true, "'exact':true");
+    check_streamed(5, "a", 2, true, "'exact':true"); /* 3 got lost on its way */
+    check_streamed(6, "a", 5, false, "'exact':true");
+    check_streamed(7, "a", 0, true, "'exact':true"); /* none is wanted */
+    check_streamed(8, "a", 7, false, "'exact':true");
+    /* One that is given up is none that somebody could lack. */
+    send_render(9, 0, 1600, 1200, ",'delivery':{'stream':'a','base':8}");
+    send_cancel(9);
+    do {
+        ping(9);
+    } while (!packet.pong.idle);
+    check_streamed(10, "a", 8, false, "'exact':true");
+    assert_true(packet.frame.whole_bytes == 0);
+}
+
 static void check_failed(const char *more, enum error_kind kind, const char *place)
 {
     char members[512];
@@ -903,7 +942,7 @@ static void members_to_worker(void **state)
 static void members_to_front(void **state)
 {
     struct packet sent = {.kind = TO_FRONT_FRAME,
-                          .frame = {.job = 7, .revision = 1e15, .more = true}};
+                          .frame = {.job = 7, .revision = 1e15, .more = true, .whole_bytes = 9}};
     struct packet got;
 
     (void)state;
@@ -963,6 +1002,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(stop_while_reading, start, stop),
         cmocka_unit_test_setup_teardown(outputs_are_drawn, start, stop),
         cmocka_unit_test_setup_teardown(what_is_asked, start, stop),
+        cmocka_unit_test_setup_teardown(streams_go_on_from_what_the_client_has, start, stop),
         cmocka_unit_test_setup_teardown(impossible_requests_are_refused, start, stop),
         cmocka_unit_test(stop_ends_a_render),
         cmocka_unit_test(front_gone),
