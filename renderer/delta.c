@@ -181,8 +181,8 @@ static void compare(struct delta *delta)
 {
     const int across = squares_along(delta->shape.width);
 
-    while (delta->compared < delta->rows && (delta->rows - delta->compared >= DELTA_SIDE ||
-                                             delta->rows == delta->shape.height)) {
+    while (delta->compared < delta->rows &&
+           (delta->rows - delta->compared >= DELTA_SIDE || delta->rows == delta->shape.height)) {
         const size_t first = (size_t)(delta->compared / DELTA_SIDE) * (size_t)across;
 
         for (int i = 0; i < across; i++) {
@@ -321,9 +321,9 @@ static bool end(void *state, struct stream_packet *out, struct error *err)
     struct delta *delta = state;
     size_t whole = 0;
     const bool key = delta->file;
-    const bool ok = key ? picture_file_end(delta->file, err)
-                        : write_delta(delta, err) &&
-                              (!delta->params.whole || write_whole(delta, &whole, err));
+    const bool ok =
+        key ? picture_file_end(delta->file, err)
+            : write_delta(delta, err) && (!delta->params.whole || write_whole(delta, &whole, err));
 
     if (ok) {
         *out = (struct stream_packet){delta->params.format, key, whole};

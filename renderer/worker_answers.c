@@ -129,8 +129,7 @@ void worker_send_frame(struct worker *w, const struct worker_job *job)
                                               .height = job->height,
                                               .codec = encoding->packet.codec,
                                               .key = encoding->packet.key,
-                                              .whole_bytes =
-                                                  (uint32_t)encoding->packet.whole_bytes,
+                                              .whole_bytes = (uint32_t)encoding->packet.whole_bytes,
                                               .times = job->times},
                                     .payload = encoding->bytes,
                                     .payload_length = encoding->length});

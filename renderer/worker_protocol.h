@@ -149,7 +149,7 @@ struct packet_frame {
     struct picture_rounds rounds;
     int width, height;
     enum codec codec;
-    bool key;          /* it decodes without earlier ones */
+    bool key;             /* it decodes without earlier ones */
     uint32_t whole_bytes; /* of the payload, the last ones: the file of the whole picture */
     struct job_times times;
 };

@@ -110,8 +110,7 @@ static enum stream_preference find_preference(const char *name)
 static bool same_picture(const struct stream_view *a, const struct stream_view *b)
 {
     return a->preference == b->preference && a->visible == b->visible && a->guides == b->guides &&
-           a->deltas == b->deltas &&
-           render_request_equal(&a->picture, &b->picture);
+           a->deltas == b->deltas && render_request_equal(&a->picture, &b->picture);
 }
 
 void stream_set_view(struct session *session, const struct message *message)
@@ -393,9 +392,8 @@ static void set_poster(struct session *session, const struct picture_answer *ans
 {
     const size_t bytes = answer->frame->whole_bytes;
     struct shared_buffer *whole =
-        bytes
-            ? shared_buffer_create((const uint8_t *)answer->bytes + answer->length - bytes, bytes)
-            : shared_buffer_ref(payload);
+        bytes ? shared_buffer_create((const uint8_t *)answer->bytes + answer->length - bytes, bytes)
+              : shared_buffer_ref(payload);
 
     if (bytes || answer->frame->key) {
         poster_set(session->room, whole);

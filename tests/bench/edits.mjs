@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // From the bytes of an edit to those of the first picture that shows it, over a live connection on
 // loopback, by kind of edit and size of the scene. Prints one JSON object: milliseconds, and how much
-// longer than a picture of another view ("over_ms", of the 95th percentile).
+// longer than a picture of another view ("over_ms", of the 95th percentile). Then what one small move
+// sends, as whole pictures and as differences by turns: medians of the bytes of each kind of picture,
+// and of the milliseconds until it is there.
 import { ask, removeDirectory, startDaemon } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
 
@@ -94,6 +96,58 @@ async function measureKinds(live) {
     return { picture_ms: round(picture), ...rows };
 }
 
+const MOVED_NODES = 1000;
+const STAGES = {
+    moving: (frame) => !frame.still,
+    still: (frame) => frame.still && !frame.lossless && frame.codec === 'jpeg',
+    lossless: (frame) => frame.lossless,
+};
+
+/** Moves a shape a little; waits for the last picture. Adds a row for each kind of picture. */
+async function moveOnce(client, i) {
+    const from = client.live.frames.length;
+    client.revision += 1;
+    const start = Date.now();
+    client.live.set('/nodes/s500/transform/translation', [0.4 + i / 400, 0.1, 0]);
+    await client.live.nextFrame((frame) => frame.lossless && frame.revision >= client.revision && !frame.stale, from);
+    for (const [stage, passes] of Object.entries(STAGES)) {
+        const frame = client.live.frames.slice(from).findLast(passes);
+        if (frame) {
+            client.rows[stage].push({ bytes: frame.bytes, ms: frame.at - start });
+        }
+    }
+}
+
+/** Two clients, each of a scene of its own, by turns. */
+async function measureDeltas(daemon) {
+    const clients = [];
+    for (const deltas of [false, true]) {
+        const id = `moved-${deltas}`;
+        await ask(daemon, 'POST', `/v1/scenes?id=${id}`, field(MOVED_NODES));
+        const live = await Live.open(daemon, id);
+        live.look({ ...VIEW, ...(deltas ? { deltas } : {}) });
+        await live.nextFrame((frame) => frame.lossless);
+        clients.push({ live, revision: 1, rows: { moving: [], still: [], lossless: [] } });
+    }
+    for (let i = 0; i <= TIMES; i += 1) {
+        for (const client of clients) {
+            if (i === 1) {
+                client.rows = { moving: [], still: [], lossless: [] }; // the first edit of a view
+            }
+            await moveOnce(client, i);
+        }
+    }
+    const rows = {};
+    for (const stage of Object.keys(STAGES)) {
+        const middle = (member) => clients.map(({ rows: all }) => percentile(all[stage].map((row) => row[member]), 0.5));
+        const [wholeBytes, bytes] = middle('bytes');
+        const [wholeMs, ms] = middle('ms');
+        rows[stage] = { whole_bytes: wholeBytes, bytes, part: Math.round((1000 * bytes) / wholeBytes) / 1000, whole_ms: wholeMs, ms };
+    }
+    await Promise.all(clients.map(({ live }) => live.close()));
+    return { nodes: MOVED_NODES, ...rows };
+}
+
 const daemon = await startDaemon();
 try {
     const runs = [];
@@ -106,7 +160,7 @@ try {
         console.error(JSON.stringify(runs.at(-1)));
         await live.close();
     }
-    console.log(JSON.stringify({ ...VIEW, runs }));
+    console.log(JSON.stringify({ ...VIEW, runs, deltas: await measureDeltas(daemon) }));
 } finally {
     await daemon.stop();
     removeDirectory(daemon.data);

@@ -49,8 +49,7 @@ static void change(struct picture *picture, int side)
 
     for (int y = top; y < top + side && y < picture->height; y++) {
         for (int x = left; x < left + side && x < picture->width; x++) {
-            uint8_t *pixel =
-                picture->pixels + (ptrdiff_t)PIXEL_BYTES * (y * picture->width + x);
+            uint8_t *pixel = picture->pixels + (ptrdiff_t)PIXEL_BYTES * (y * picture->width + x);
             pixel[x % 2] = value;
             pixel[2] = (uint8_t)(x * y);
         }
@@ -462,9 +461,8 @@ static void what_a_line_loses_spoils_nothing(void **state)
 
         send_queue_init(&viewer->queue);
         for (int i = 0; i < CHAINS; i++) {
-            viewer->chains[i] = (struct chain){stream_encoder_open(&delta_stream, NULL),
-                                               make_picture(60, 40),
-                                               {0}};
+            viewer->chains[i] =
+                (struct chain){stream_encoder_open(&delta_stream, NULL), make_picture(60, 40), {0}};
         }
         for (int i = 0; i < 150; i++) {
             draw(viewer);

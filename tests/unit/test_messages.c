@@ -219,7 +219,7 @@ static const uint8_t frame_bytes[FRAME_HEADER_BYTES] = {
     4,    3,    2,    1,    8,    7,    6,    5,    /* number, payload bytes */
     0x16, 0x15, 0x14, 0x13, 0x12, 0x11, 0x10, 0x09, /* revision */
     0x24, 0x23, 0x22, 0x21, 0x80, 2,    0x68, 1,    0,  5, 0xd0, 2, /* seq, sides */
-    2,    3,    5,    9,                                            /* round of rounds, chain, link */
+    2,    3,    5,    9,                                            /* round, chain */
     1,    0,    0,    0,    2,    0,    0,    0,    3,  0, 0,    0, /* stages in their order */
     4,    0,    0,    0,    5,    0,    0,    0,    6,  0, 0,    0, 7,    0,    0,    0,
     8,    0,    0,    0,    9,    0,    0,    0,    10, 0, 0,    0, 0xff, 0xff, 0xff, 0xff,

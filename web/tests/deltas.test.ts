@@ -5,7 +5,8 @@ import { expect, test } from "vitest";
 import { Chains, readDelta } from "../src/link/deltas.ts";
 import { HEADER } from "./fixture.ts";
 
-const payload = (...bytes: number[]): Blob => new Blob([new Uint8Array(bytes)], { type: "image/png" });
+const payload = (...bytes: number[]): Blob =>
+    new Blob([new Uint8Array(bytes)], { type: "image/png" });
 
 test("runs of squares stand before the picture of them", async () => {
     const { squares, atlas } = await readDelta(payload(2, 0, 5, 0, 3, 0, 1, 1, 1, 0, 77, 78));
