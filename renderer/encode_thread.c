@@ -321,9 +321,10 @@ void encode_thread_end(struct encode_thread *encode_thread, struct encoding *enc
     struct work *work = work_of(encoding);
 
     pthread_mutex_lock(&encode_thread->lock);
+    const bool is_mine = work->is_small && !work->ended;
     work->ended = true;
     work->whole = whole;
-    while (work->is_small && encode(encode_thread, work)) {
+    while (is_mine && encode(encode_thread, work)) {
     }
     pthread_cond_broadcast(&encode_thread->change);
     pthread_mutex_unlock(&encode_thread->lock);

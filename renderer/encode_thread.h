@@ -40,7 +40,8 @@ struct encoding *encode_thread_begin(struct encode_thread *encode_thread,
 /* The next rows of an output; takes them. */
 void encode_thread_add(struct encode_thread *encode_thread, struct encoding *encoding, enum aov aov,
                        struct image image);
-/* No more rows come: the picture is whole, or is not wanted any more. */
+/* No more rows come: the picture is whole, or is not wanted any more. One that is finished may not
+ * be wanted any more either. */
 void encode_thread_end(struct encode_thread *encode_thread, struct encoding *encoding, bool whole);
 /* Whether so much waits that more rows would only fill memory. */
 bool encode_thread_is_full(struct encode_thread *encode_thread, const struct encoding *encoding);

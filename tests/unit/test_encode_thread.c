@@ -291,6 +291,7 @@ static void the_owner_encodes_a_small_jpeg(void **state)
     add(encoding, &image, 0, BAND);
     assert_null(encode_thread_take(encode_thread));
     encode_thread_end(encode_thread, encoding, true);
+    encode_thread_end(encode_thread, encoding, false); /* cancelled before it is taken */
     assert_ptr_equal(encode_thread_take(encode_thread), encoding);
     assert_true(encoding->ok);
     sleep_until_woken();
