@@ -142,7 +142,7 @@ async function measureDeltas(daemon) {
         const middle = (member) => clients.map(({ rows: all }) => percentile(all[stage].map((row) => row[member]), 0.5));
         const [wholeBytes, bytes] = middle('bytes');
         const [wholeMs, ms] = middle('ms');
-        rows[stage] = { whole_bytes: wholeBytes, bytes, part: Math.round((1000 * bytes) / wholeBytes) / 1000, whole_ms: wholeMs, ms };
+        rows[stage] = { whole_bytes: wholeBytes, bytes, part: Math.round((1000 * bytes) / wholeBytes) / 1000, whole_ms: round(wholeMs), ms: round(ms) };
     }
     await Promise.all(clients.map(({ live }) => live.close()));
     return { nodes: MOVED_NODES, ...rows };
