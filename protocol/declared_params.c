@@ -121,7 +121,7 @@ static bool read_default(struct param *out, const cJSON *json, const char *place
         return param_read(out, json, out->def, error_place(path, place, row_members[ROW_DEFAULT]),
                           err);
     }
-    double nearest_to_0 = out->min > 0 ? out->min : out->max < 0 ? out->max : 0;
+    const double nearest_to_0 = out->min > 0 ? out->min : out->max < 0 ? out->max : 0;
     for (int i = 0; i < param_components(out->type); i++) {
         out->def[i] = nearest_to_0;
     }

@@ -161,7 +161,7 @@ static bool check_member(const cJSON *json, int member, const char *place, struc
                          member == MEMBER_BEFORE ? " or null" : "");
     }
     const char *text = json->valuestring;
-    size_t length = strlen(text);
+    const size_t length = strlen(text);
     if (length > PATH_TEXT_BYTES) {
         return error_set(err, ERROR_LIMIT, place, "%zu bytes are above the maximum %d", length,
                          PATH_TEXT_BYTES);
@@ -254,7 +254,7 @@ static void roll_back(struct editor *failed)
     };
 
     for (const cJSON *op = failed->inverse->child; op; op = op->next) {
-        bool undone = find_operation(op)->apply(&editor, op);
+        const bool undone = find_operation(op)->apply(&editor, op);
         assert(undone);
         (void)undone;
     }

@@ -151,7 +151,7 @@ static bool move_node(struct editor *editor, const struct path *path, const char
         !find_position(editor, parent, op, into, &position)) {
         return false;
     }
-    size_t old = node_position(node);
+    const size_t old = node_position(node);
     if (position < parent->child_count && parent->children[position] == node) {
         return error_set(editor->err, ERROR_CONFLICT, at, "a node cannot come before itself");
     }
@@ -283,7 +283,7 @@ static bool move_resource(struct editor *editor, const struct resource_kind *kin
     if (!find_list_position(editor, list, op, at, &position)) {
         return false;
     }
-    size_t old = resource_list_position(list, resource);
+    const size_t old = resource_list_position(list, resource);
     if (position == old) {
         return error_set(editor->err, ERROR_CONFLICT, at, "it cannot come before itself");
     }

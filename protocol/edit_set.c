@@ -7,7 +7,7 @@
 static bool set_value(struct editor *editor, struct record *record, const char *name,
                       const char *at, const cJSON *value)
 {
-    int index = record_type_find(record->type, name);
+    const int index = record_type_find(record->type, name);
 
     if (index < 0) {
         return record_type_unknown(record->type, name, at, editor->err);
@@ -76,7 +76,7 @@ static bool fail_place(const struct editor *editor, const char *at)
 static bool set_in_record(struct editor *editor, struct node *node, struct record *record,
                           const char *name, const char *at, const cJSON *value)
 {
-    int index = record_type_find(record->type, name);
+    const int index = record_type_find(record->type, name);
 
     if (index < 0) {
         return record_type_unknown(record->type, name, at, editor->err);
@@ -128,11 +128,11 @@ static bool set_in_resource(struct editor *editor, const struct path *path,
     if (path->count == 3 && kind->type && path_is(path, 2, kind->type)) {
         return edit_set_resource_type(editor, kind, resource, at, value);
     }
-    int depth = kind->values ? 3 : 2;
+    const int depth = kind->values ? 3 : 2;
     if (path->count != depth + 1 || (kind->values && !path_is(path, 2, kind->values))) {
         return fail_place(editor, at);
     }
-    int rows = resource_rows(resource->record.type);
+    const int rows = resource_rows(resource->record.type);
     return rows >= 0 && path_is(path, depth, resource->record.type->params[rows].name)
                ? edit_set_rows(editor, kind, resource, rows, at, value)
                : set_value(editor, &resource->record, path->part[depth], at, value);

@@ -15,7 +15,7 @@ static struct record converted(const struct record *from, const struct record_ty
     record_init(&to, type);
     for (int i = 0; from->type->params[i].name; i++) {
         const struct param *param = &from->type->params[i];
-        int index = record_type_find(type, param->name);
+        const int index = record_type_find(type, param->name);
         if (index < 0 || (resource_kind_named_by(type->params[index].type) &&
                           type->params[index].type != param->type)) {
             continue;

@@ -83,8 +83,8 @@ const char *error_place(char *out, const char *place, const char *member)
 {
     static const char cut[] = "...";
     char joined[ERROR_PLACE_BYTES + PLACE_MEMBER_BYTES + 1];
-    size_t before = strnlen(place, ERROR_PLACE_BYTES - 1);
-    size_t own = strnlen(member, PLACE_MEMBER_BYTES), length = before + 1 + own;
+    const size_t before = strnlen(place, ERROR_PLACE_BYTES - 1);
+    const size_t own = strnlen(member, PLACE_MEMBER_BYTES), length = before + 1 + own;
 
     memcpy(joined, place, before);
     joined[before] = '/';
@@ -93,7 +93,7 @@ const char *error_place(char *out, const char *place, const char *member)
     if (length < ERROR_PLACE_BYTES) {
         memcpy(out, joined, length + 1);
     } else {
-        size_t kept = ERROR_PLACE_BYTES - sizeof cut;
+        const size_t kept = ERROR_PLACE_BYTES - sizeof cut;
         memcpy(out, cut, sizeof cut - 1);
         memcpy(out + sizeof cut - 1, joined + length - kept, kept + 1);
     }

@@ -154,7 +154,7 @@ static void record_edit(struct author *author, const struct history_entry *entry
     struct step *newest = undo->count > 0 ? undo->items[undo->count - 1] : NULL;
 
     clear(&author->redo);
-    bool joins = newest && *step->group && strcmp(step->group, newest->group) == 0;
+    const bool joins = newest && *step->group && strcmp(step->group, newest->group) == 0;
     if (!joins || !step_join(newest, step)) {
         push(undo, step);
     }
@@ -225,8 +225,9 @@ bool history_apply(struct history_move *move, struct scene *scene, struct error 
     cJSON *inverse = NULL;
 
     move->skipped = step_take_overwritten(step, scene);
-    bool ok = step->count > 0 ? edit_apply_some(scene, step->ops, &move->applied, &inverse, err)
-                              : fail_overwritten(move->skipped, err);
+    const bool ok = step->count > 0
+                        ? edit_apply_some(scene, step->ops, &move->applied, &inverse, err)
+                        : fail_overwritten(move->skipped, err);
     move->step = ok ? step_create(NULL, step->label, move->applied, inverse) : NULL;
     move->label = ok ? move->step->label : NULL;
     move->inverse = inverse;

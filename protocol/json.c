@@ -77,7 +77,7 @@ static void skip_space(struct scan *scan)
 static bool fail_expected(struct scan *scan, const char *what)
 {
     char message[128];
-    int c = peek(scan);
+    const int c = peek(scan);
 
     if (c < 0) {
         snprintf(message, sizeof message, "the text ends, expected %s", what);
@@ -106,7 +106,7 @@ static void keep_byte(struct scan *scan, unsigned byte)
 static void keep_code(struct scan *scan, uint32_t code)
 {
     char bytes[4];
-    size_t count = utf8_put(bytes, code);
+    const size_t count = utf8_put(bytes, code);
 
     for (size_t i = 0; i < count; i++) {
         keep_byte(scan, (unsigned char)bytes[i]);
@@ -119,11 +119,11 @@ static int32_t hex4(const struct scan *scan, size_t at)
     int32_t code = 0;
 
     for (size_t i = at; i < at + 4; i++) {
-        int c = i < scan->length ? scan->text[i] : -1;
-        int digit = c >= '0' && c <= '9'   ? c - '0'
-                    : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                    : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                           : -1;
+        const int c = i < scan->length ? scan->text[i] : -1;
+        const int digit = c >= '0' && c <= '9'   ? c - '0'
+                          : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                          : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                                 : -1;
         if (digit < 0) {
             return -1;
         }
@@ -134,7 +134,7 @@ static int32_t hex4(const struct scan *scan, size_t at)
 
 static bool scan_unicode_escape(struct scan *scan)
 {
-    size_t start = scan->at - 1; /* the backslash */
+    const size_t start = scan->at - 1; /* the backslash */
     int32_t code = hex4(scan, scan->at + 1);
 
     if (code < 0) {
@@ -145,9 +145,9 @@ static bool scan_unicode_escape(struct scan *scan)
     }
     scan->at += 5;
     if (code >= 0xd800 && code < 0xe000) {
-        bool pair = code < 0xdc00 && scan->at + 1 < scan->length && scan->text[scan->at] == '\\' &&
-                    scan->text[scan->at + 1] == 'u';
-        int32_t low = pair ? hex4(scan, scan->at + 2) : -1;
+        const bool pair = code < 0xdc00 && scan->at + 1 < scan->length &&
+                          scan->text[scan->at] == '\\' && scan->text[scan->at + 1] == 'u';
+        const int32_t low = pair ? hex4(scan, scan->at + 2) : -1;
         if (low < 0xdc00 || low >= 0xe000) {
             return fail_at(scan, start, ERROR_SYNTAX, "half of a surrogate pair");
         }
@@ -163,7 +163,7 @@ static bool scan_escape(struct scan *scan)
     static const char names[] = "\"\\/bfnrt", meanings[] = "\"\\/\b\f\n\r\t";
 
     scan->at++;
-    int c = peek(scan);
+    const int c = peek(scan);
     if (c == 'u') {
         return scan_unicode_escape(scan);
     }
@@ -178,7 +178,8 @@ static bool scan_escape(struct scan *scan)
 
 static bool scan_utf8(struct scan *scan)
 {
-    size_t count = utf8_sequence((const char *)scan->text + scan->at, scan->length - scan->at);
+    const size_t count =
+        utf8_sequence((const char *)scan->text + scan->at, scan->length - scan->at);
 
     if (count == 0) {
         return fail_at(scan, scan->at, ERROR_SYNTAX, "not UTF-8");
@@ -191,10 +192,10 @@ static bool scan_utf8(struct scan *scan)
 
 static bool scan_string(struct scan *scan)
 {
-    size_t start = scan->at++;
+    const size_t start = scan->at++;
 
     for (;;) {
-        int c = peek(scan);
+        const int c = peek(scan);
         if (scan->at - start - 1 > LIMIT_JSON_STRING_BYTES) {
             return fail_limit(scan, start, "bytes of a string", LIMIT_JSON_STRING_BYTES);
         }
@@ -252,7 +253,7 @@ static bool check_magnitude(struct scan *scan, size_t start, size_t length)
 
 static bool scan_number(struct scan *scan)
 {
-    size_t start = scan->at;
+    const size_t start = scan->at;
 
     scan->at += peek(scan) == '-';
     if (peek(scan) == '0') {
@@ -278,7 +279,7 @@ static bool scan_number(struct scan *scan)
             return false;
         }
     }
-    size_t length = scan->at - start;
+    const size_t length = scan->at - start;
     if (length > LIMIT_JSON_NUMBER_BYTES) {
         return fail_limit(scan, start, "characters of a number", LIMIT_JSON_NUMBER_BYTES);
     }
@@ -287,7 +288,7 @@ static bool scan_number(struct scan *scan)
 
 static bool scan_word(struct scan *scan, const char *word)
 {
-    size_t length = strlen(word);
+    const size_t length = strlen(word);
 
     if (scan->length - scan->at < length || memcmp(scan->text + scan->at, word, length) != 0) {
         return fail_expected(scan, "a value");
@@ -361,7 +362,7 @@ static int compare_names(const struct key *a, const struct key *b, const char *n
 static int compare_keys(const void *a, const void *b, void *names)
 {
     const struct key *x = a, *y = b;
-    int order = compare_names(x, y, names);
+    const int order = compare_names(x, y, names);
 
     return order ? order : x->at < y->at ? -1 : 1;
 }
@@ -382,7 +383,7 @@ static bool all_differ(const struct key *keys, size_t count, const char *names)
 static bool check_duplicates(struct scan *scan, size_t first)
 {
     struct key *keys = scan->keys + first;
-    size_t count = scan->key_count - first;
+    const size_t count = scan->key_count - first;
 
     if (count <= FEW_KEYS && all_differ(keys, count, scan->names)) {
         return true;
@@ -390,7 +391,7 @@ static bool check_duplicates(struct scan *scan, size_t first)
     qsort_r(keys, count, sizeof *keys, compare_keys, scan->names);
     for (size_t i = 1; i < count; i++) {
         if (compare_names(&keys[i - 1], &keys[i], scan->names) == 0) {
-            int shown = keys[i].length < 64 ? (int)keys[i].length : 64;
+            const int shown = keys[i].length < 64 ? (int)keys[i].length : 64;
             char message[128];
             snprintf(message, sizeof message, "duplicate member \"%.*s\"", shown,
                      shown ? scan->names + keys[i].name : "");
@@ -423,7 +424,7 @@ static bool scan_members(struct scan *scan, int depth, size_t first)
 
 static bool scan_object(struct scan *scan, int depth)
 {
-    size_t first = scan->key_count, names = scan->name_length;
+    const size_t first = scan->key_count, names = scan->name_length;
 
     scan->at++;
     skip_space(scan);
@@ -445,7 +446,7 @@ static bool scan_value(struct scan *scan, int depth)
     if (++scan->values > LIMIT_JSON_VALUES) {
         return fail_limit(scan, scan->at, "values", LIMIT_JSON_VALUES);
     }
-    int c = peek(scan);
+    const int c = peek(scan);
     if ((c == '{' || c == '[') && depth == LIMIT_JSON_DEPTH) {
         return fail_limit(scan, scan->at, "levels of nesting", LIMIT_JSON_DEPTH);
     }
@@ -487,7 +488,7 @@ cJSON *json_parse(const char *text, size_t length, struct error *err)
         return NULL;
     }
     struct scan scan = {.text = (const unsigned char *)text, .length = length, .err = err};
-    bool ok = scan_text(&scan);
+    const bool ok = scan_text(&scan);
     free(scan.keys);
     free(scan.names);
     if (!ok) {

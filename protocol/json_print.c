@@ -63,7 +63,7 @@ static int put_digits(uint64_t number, char *out)
  * only one, and dividing two exact numbers rounds as reading does. */
 static bool millionths(double value, struct decimal *out)
 {
-    double number = nearbyint(value * MILLION);
+    const double number = nearbyint(value * MILLION);
 
     if (number < 1 || number > MILLION * MILLION || number / MILLION != value) {
         return false;
@@ -115,7 +115,7 @@ void json_number(double value, char out[32])
     struct decimal d = shortest_decimal(fabs(value));
     const char *sign = value < 0 ? "-" : "";
     if (d.point > 21 || d.point < -5) {
-        int exponent = d.point - 1;
+        const int exponent = d.point - 1;
         snprintf(out, 32, "%s%c%s%.*se%c%d", sign, d.digits[0], d.count > 1 ? "." : "", d.count - 1,
                  d.digits + 1, exponent < 0 ? '-' : '+', abs(exponent));
     } else if (d.point <= 0) {
@@ -134,7 +134,7 @@ static void add_number(struct text *text, double value)
     char out[32];
 
     if (fabs(value) < 1e6 && value == trunc(value)) {
-        int sign = value < 0;
+        const int sign = value < 0;
         out[0] = '-';
         out[sign + put_digits((uint64_t)fabs(value), out + sign)] = '\0';
     } else {
@@ -207,7 +207,7 @@ static void add_indent(struct text *text, int indent)
 
 static void add_items(struct text *text, const cJSON *json, int indent, bool broken)
 {
-    bool object = cJSON_IsObject(json);
+    const bool object = cJSON_IsObject(json);
 
     add(text, object ? "{" : "[", 1);
     for (const cJSON *item = json->child; item; item = item->next) {
@@ -236,7 +236,7 @@ static void add_container(struct text *text, const cJSON *json, int indent)
         return;
     }
     if (is_flat(json)) {
-        size_t start = text->length;
+        const size_t start = text->length;
         add_items(text, json, indent, false);
         if (text->length - start + 2 * (size_t)indent <= LINE_WIDTH) {
             return;

@@ -23,7 +23,7 @@ void *memory_resize(void *block, size_t count, size_t size)
     if (size && count > SIZE_MAX / size) {
         abort();
     }
-    size_t bytes = count * size;
+    const size_t bytes = count * size;
     void *resized = realloc(block, bytes > 0 ? bytes : 1);
     if (!resized) {
         abort();
@@ -44,7 +44,7 @@ __attribute__((constructor)) static void serve_json(void)
 
 char *memory_text(const char *text)
 {
-    size_t bytes = strlen(text) + 1;
+    const size_t bytes = strlen(text) + 1;
 
     return memcpy(memory_alloc(bytes, 1), text, bytes);
 }

@@ -221,7 +221,7 @@ const char *message_name(enum message_kind kind)
 static bool check_client(const cJSON *json, const char *place, struct error *err)
 {
     const char *text = cJSON_IsString(json) ? json->valuestring : "";
-    size_t length = strlen(text);
+    const size_t length = strlen(text);
 
     return (length >= 8 && record_name_valid(text) && !strchr(text, '.')) ||
            error_set(err, ERROR_INVALID, place, "expected 8 to %d of A-Z a-z 0-9 _ -",

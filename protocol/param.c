@@ -72,7 +72,7 @@ bool param_is_whole(enum param_type type)
 
 void param_range(const struct param *param, double *out_min, double *out_max)
 {
-    bool bounded = param->min != 0 || param->max != 0;
+    const bool bounded = param->min != 0 || param->max != 0;
 
     *out_min = bounded ? param->min : param->type == PARAM_COLOR ? 0 : -LIMIT_COORDINATE;
     *out_max = bounded ? param->max : LIMIT_COORDINATE;
@@ -163,7 +163,7 @@ static bool read_vector(const struct param *param, const cJSON *json, double out
     static const char *const counts[] = {"no", "one", "two", "three", "four"};
     const char *what = param->type == PARAM_BVEC3 ? "true or false" : "numbers";
     const cJSON *part = cJSON_IsArray(json) ? json->child : NULL;
-    int count = param_components(param->type);
+    const int count = param_components(param->type);
     for (int i = 0; i < count; i++, part = part->next) {
         if (!part) {
             return error_set(err, ERROR_INVALID, place, "expected %s %s%s", counts[count], what,
@@ -190,7 +190,7 @@ static bool fail_choice(const struct param *param, const char *text, const char 
     char hint[64], list[160] = "";
 
     for (int i = 0; param->choices[i]; i++) {
-        size_t used = strlen(list);
+        const size_t used = strlen(list);
         snprintf(list + used, sizeof list - used, "%s\"%s\"", i ? ", " : "", param->choices[i]);
         suggest_consider(&suggestion, param->choices[i]);
     }
@@ -254,7 +254,7 @@ static bool check_characters(const char *text, const char *allowed, const char *
 
 static bool check_digest(const char *text, const char *place, struct error *err)
 {
-    size_t length = strlen(text);
+    const size_t length = strlen(text);
 
     return length == 0 || (length == DIGEST_DIGITS && strspn(text, "0123456789abcdef") == length) ||
            error_set(err, ERROR_INVALID, place, "\"%.80s\" is not %d small hexadecimal digits",
@@ -268,7 +268,7 @@ static bool check_text(const struct param *param, const cJSON *json, const char 
         return error_set(err, ERROR_INVALID, place, "expected a text");
     }
     const char *text = json->valuestring;
-    size_t length = strlen(text);
+    const size_t length = strlen(text);
     if (param->type == PARAM_CODE || param->type == PARAM_EQUATION) {
         const size_t most = param_text_bytes(param->type);
         return length > most ? error_set(err, ERROR_LIMIT, place,
@@ -330,7 +330,7 @@ void param_value_reset(const struct param *param, struct value *value)
                                                                  : "");
     }
     if (param->type == PARAM_POINTS) {
-        size_t count = 2 * (size_t)param->def[0];
+        const size_t count = 2 * (size_t)param->def[0];
         value->points = memory_alloc(count, sizeof *value->points);
         memcpy(value->points, param->def_points, count * sizeof *value->points);
     }
@@ -343,7 +343,7 @@ void param_value_copy(struct value *to, const struct value *from)
         to->text = memory_text(from->text);
     }
     if (from->points) {
-        size_t count = 2 * (size_t)from->number[0];
+        const size_t count = 2 * (size_t)from->number[0];
         to->points = memory_alloc(count, sizeof *to->points);
         memcpy(to->points, from->points, count * sizeof *to->points);
     }
@@ -394,7 +394,7 @@ bool param_value_set(const struct param *param, struct value *value, const cJSON
 
 static cJSON *number_to_json(const struct param *param, double number)
 {
-    bool is_bool = param->type == PARAM_BOOL || param->type == PARAM_BVEC3;
+    const bool is_bool = param->type == PARAM_BOOL || param->type == PARAM_BVEC3;
 
     return is_bool ? cJSON_CreateBool(number != 0) : cJSON_CreateNumber(number);
 }
@@ -421,7 +421,7 @@ static cJSON *points_to_json(const struct param *param, const struct value *valu
 
 cJSON *param_value_json(const struct param *param, const struct value *value)
 {
-    int components = param_components(param->type);
+    const int components = param_components(param->type);
 
     switch (param->type) {
     case PARAM_POINTS:

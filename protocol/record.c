@@ -12,8 +12,8 @@
 
 bool record_name_valid(const char *name)
 {
-    size_t length = strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
-                                 "0123456789_.-");
+    const size_t length = strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                       "0123456789_.-");
 
     return length > 0 && length <= LIMIT_ID_BYTES && name[length] == '\0';
 }
@@ -61,7 +61,7 @@ bool record_type_unknown(const struct record_type *type, const char *name, const
 
 void record_init(struct record *record, const struct record_type *type)
 {
-    size_t count = record_type_count(type);
+    const size_t count = record_type_count(type);
 
     record->type = type;
     record->values = memory_alloc(count, sizeof *record->values);
@@ -84,7 +84,7 @@ void record_finish(struct record *record)
 
 void record_copy(struct record *to, const struct record *from)
 {
-    size_t count = record_type_count(from->type);
+    const size_t count = record_type_count(from->type);
 
     to->type = from->type;
     to->values = memory_alloc(count, sizeof *to->values);
@@ -140,7 +140,7 @@ bool record_read_member(struct record *record, const cJSON *member, const char *
                         struct error *err)
 {
     char path[ERROR_PLACE_BYTES];
-    int index = record_type_find(record->type, member->string);
+    const int index = record_type_find(record->type, member->string);
 
     error_place(path, place, member->string);
     return index < 0 ? record_type_unknown(record->type, member->string, path, err)
@@ -181,7 +181,7 @@ void record_print(const struct record *record, cJSON *object)
 
 static struct value *named_value(const struct record *record, const char *name)
 {
-    int index = record_type_find(record->type, name);
+    const int index = record_type_find(record->type, name);
 
     assert(index >= 0);
     return &record->values[index];
@@ -236,7 +236,7 @@ void record_put_text(struct record *record, const char *name, const char *text)
 
 bool record_is(const struct record *record, const char *name, const char *choice)
 {
-    int index = record_type_find(record->type, name);
+    const int index = record_type_find(record->type, name);
 
     assert(index >= 0 && record->type->params[index].choices);
     return strcmp(record->type->params[index].choices[(int)record->values[index].number[0]],

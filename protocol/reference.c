@@ -93,7 +93,7 @@ static void add_params(struct page *page, const struct record_type *type)
 static void add_node(struct page *page, const struct node_type *type)
 {
     const char *name = type->record.name;
-    bool measured = type->group == GROUP_PRIMITIVE || type->group == GROUP_SHAPE;
+    const bool measured = type->group == GROUP_PRIMITIVE || type->group == GROUP_SHAPE;
 
     add(page, "### %s\n<img src=\"reference/%s.jpg\" width=\"192\" height=\"144\" alt=\"\">\n\n%s",
         name, name, type->record.doc);

@@ -137,7 +137,7 @@ bool resource_check_rows(const struct resource_kind *kind, const cJSON *rows, co
 struct declared_params *resource_define(const struct resource_kind *kind,
                                         const struct resource *resource)
 {
-    int rows = resource_rows(resource->record.type);
+    const int rows = resource_rows(resource->record.type);
 
     return declared_params_create(resource->name, extended(kind),
                                   resource->record.values[rows].text);

@@ -43,7 +43,7 @@ static bool read_values(struct resource *resource, const struct resource_kind *k
 static bool read_definition(struct resource *resource, const struct resource_kind *kind,
                             const cJSON *json, const char *place, struct error *err)
 {
-    int index = resource_rows(resource->record.type);
+    const int index = resource_rows(resource->record.type);
 
     if (index < 0) {
         return true;

@@ -105,7 +105,7 @@ static bool sort_node_members(const cJSON *json, const cJSON **found, const char
                               struct error *err)
 {
     const char *names[16] = {"id", "type", "transform", "params", "children"};
-    size_t count = record_type_count(&node_common_type);
+    const size_t count = record_type_count(&node_common_type);
 
     assert(NODE_COMMON + count < sizeof names / sizeof names[0]);
     for (size_t i = 0; i < count; i++) {

@@ -53,7 +53,7 @@ static void lower(struct node *node, size_t height)
     while (node && node->height == height + 1) {
         size_t highest = 0;
         for (size_t i = 0; i < node->child_count && highest < height; i++) {
-            size_t child = node->children[i]->height;
+            const size_t child = node->children[i]->height;
             highest = child > highest ? child : highest;
         }
         height = node->height;
@@ -74,7 +74,7 @@ void node_remove_child(struct node *child)
 
 void node_move(struct node *node, struct node *parent, size_t position)
 {
-    size_t old = node_position(node);
+    const size_t old = node_position(node);
 
     if (parent != node->parent) {
         node_remove_child(node);
@@ -107,7 +107,7 @@ size_t node_position(const struct node *node)
         low -= low > 0;
         high += high + 1 < parent->child_count;
     }
-    size_t position = parent->children[low] == node ? low : high;
+    const size_t position = parent->children[low] == node ? low : high;
     parent->children[position]->last_position = position;
     return position;
 }
@@ -118,7 +118,7 @@ struct node *node_next(const struct node *node, const struct node *top)
         return node->children[0];
     }
     for (; node != top; node = node->parent) {
-        size_t next = node_position(node) + 1;
+        const size_t next = node_position(node) + 1;
         if (next < node->parent->child_count) {
             return node->parent->children[next];
         }

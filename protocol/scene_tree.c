@@ -175,7 +175,7 @@ static void count_users(struct scene *scene, const struct node *top, int by)
 static bool check_room(const struct node *parent, const struct node *node, const char *place,
                        struct error *err)
 {
-    size_t depth = (parent ? node_depth(parent) : 0) + node->height;
+    const size_t depth = (parent ? node_depth(parent) : 0) + node->height;
 
     if (depth > LIMIT_NODE_DEPTH) {
         return error_set(err, ERROR_LIMIT, place, "%zu levels of nodes are above the maximum %d",
@@ -198,7 +198,7 @@ static bool check_count(size_t count, const char *place, struct error *err)
 bool scene_attach(struct scene *scene, struct node *node, struct node *parent, size_t position,
                   const char *place, struct error *err)
 {
-    size_t count = node_count(node);
+    const size_t count = node_count(node);
 
     if (!check_count(scene->node_count + count, place, err) ||
         !check_room(parent, node, place, err)) {
@@ -251,7 +251,7 @@ static bool check_all_targets(const struct scene *scene, struct error *err)
 
 bool scene_attach_all(struct scene *scene, struct error *err)
 {
-    size_t trees = scene->models.count + 1;
+    const size_t trees = scene->models.count + 1;
 
     for (size_t i = 0; i < trees; i++) {
         scene->node_count += node_count(tree_at(scene, i));
@@ -286,12 +286,12 @@ bool scene_move(struct scene *scene, struct node *node, struct node *parent, siz
                 const char *place, struct error *err)
 {
     struct node *home = node->parent;
-    size_t old = node_position(node);
+    const size_t old = node_position(node);
 
     if (!check_room(parent, node, place, err)) {
         return false;
     }
-    bool other_tree = node_owner(home) != node_owner(parent);
+    const bool other_tree = node_owner(home) != node_owner(parent);
     if (other_tree && !scene_check_untargeted(scene, node, place, err)) {
         return false;
     }

@@ -36,13 +36,14 @@ static size_t edit_distance(const char *a, size_t a_length, const char *b, size_
 
 void suggest_consider(struct suggestion *suggestion, const char *name)
 {
-    size_t written = strnlen(suggestion->text, LONGEST + 1), length = strnlen(name, LONGEST + 1);
+    const size_t written = strnlen(suggestion->text, LONGEST + 1),
+                 length = strnlen(name, LONGEST + 1);
 
     if (written > LONGEST || length > LONGEST) {
         return;
     }
     size_t distance = edit_distance(suggestion->text, written, name, length);
-    size_t allowed = length <= 3 ? 1 : length <= 7 ? 2 : 3;
+    const size_t allowed = length <= 3 ? 1 : length <= 7 ? 2 : 3;
     if (distance <= allowed && distance < length &&
         (!suggestion->best || distance < suggestion->distance)) {
         suggestion->best = name;

@@ -46,8 +46,8 @@ void log_line(enum log_level level, const char *component, const char *format, .
     clock_gettime(CLOCK_REALTIME, &now);
     gmtime_r(&now.tv_sec, &parts);
     strftime(stamp, sizeof stamp, "%Y-%m-%dT%H:%M:%S", &parts);
-    int length = snprintf(line, sizeof line, "%s.%03ldZ %s %s: ", stamp, now.tv_nsec / 1000000,
-                          names[level], component);
+    const int length = snprintf(line, sizeof line, "%s.%03ldZ %s %s: ", stamp,
+                                now.tv_nsec / 1000000, names[level], component);
     va_start(arguments, format);
     vsnprintf(line + length, sizeof line - (size_t)length - 1, format, arguments);
     va_end(arguments);

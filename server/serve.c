@@ -45,7 +45,7 @@ struct server {
 static bool live_scene(const char *target, char out[LIMIT_ID_BYTES + 1])
 {
     static const char before[] = "/v1/scenes/", after[] = "/live";
-    size_t length = strcspn(target, "?"), around = sizeof before + sizeof after - 2;
+    const size_t length = strcspn(target, "?"), around = sizeof before + sizeof after - 2;
 
     if (length <= around || length > around + LIMIT_ID_BYTES ||
         strncmp(target, before, sizeof before - 1) != 0 ||
@@ -268,7 +268,7 @@ static void reserve_descriptors(void)
 
 static void announce(const char *address, int port)
 {
-    bool v6 = strchr(address, ':') != NULL;
+    const bool v6 = strchr(address, ':') != NULL;
 
     printf("fieldcast: listening on http://%s%s%s:%d/\n", v6 ? "[" : "", address, v6 ? "]" : "",
            port);
@@ -299,7 +299,7 @@ int serve(const struct serve_params *params)
     announce(address, acceptor_port(server.acceptor));
     sigwait(&signals, &signal_number);
     log_info("serve", "%s: draining", strsignal(signal_number));
-    bool failed = atomic_load(&server.hub->hopeless);
+    const bool failed = atomic_load(&server.hub->hopeless);
     drain(&server);
     stop(&server);
     log_info("serve", "ended");

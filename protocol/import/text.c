@@ -174,7 +174,7 @@ static bool read_text(struct reader *reader, struct import_value *value)
     value->text = memory_alloc(room, 1);
     for (;;) {
         const int line = reader->line, column = reader->column;
-        int c = take(reader);
+        const int c = take(reader);
         size_t bytes = 1;
 
         if (room < used + 8) {

@@ -66,8 +66,8 @@ static bool reduce(struct fraction *f, const fmpz_mpoly_ctx_t ring, struct error
 
     fmpz_mpoly_init(divisor, ring);
     fmpz_init(first);
-    bool ok = fmpz_mpoly_gcd(divisor, f->over, f->under, ring) ||
-              error_set(err, ERROR_LIMIT, "", "a common divisor cannot be found");
+    const bool ok = fmpz_mpoly_gcd(divisor, f->over, f->under, ring) ||
+                    error_set(err, ERROR_LIMIT, "", "a common divisor cannot be found");
     if (ok) {
         fmpz_mpoly_divides(f->over, f->over, divisor, ring);
         fmpz_mpoly_divides(f->under, f->under, divisor, ring);

@@ -180,9 +180,9 @@ static bool read_polynomial(const struct ideal *ideal, const char *text, int lin
         return error_set_at(err, ERROR_INVALID, "", first->line, first->column, "%s",
                             first->message);
     }
-    bool ok = equation->relation == EQUATION_EQUALS
-                  ? subtract_sides(&r, equation, out)
-                  : error_set(err, ERROR_INVALID, "", "an inequality is no polynomial");
+    const bool ok = equation->relation == EQUATION_EQUALS
+                        ? subtract_sides(&r, equation, out)
+                        : error_set(err, ERROR_INVALID, "", "an inequality is no polynomial");
     free(equation);
     if (!ok) {
         err->line = line;

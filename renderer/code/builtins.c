@@ -151,7 +151,7 @@ static double stepped_smoothly(double low, double high, double x)
     if (low == high) {
         return stepped(low, x);
     }
-    double t = between((x - low) / (high - low), 0, 1);
+    const double t = between((x - low) / (high - low), 0, 1);
     return t * t * (3 - 2 * t);
 }
 
@@ -232,7 +232,7 @@ static void distance_of(double *out, const double *const in[BUILTIN_ARGUMENTS], 
     double sum = 0;
 
     for (int i = 0; i < n; i++) {
-        double d = in[0][i] - in[1][i];
+        const double d = in[0][i] - in[1][i];
         sum += d * d;
     }
     out[0] = sqrt(sum);
@@ -243,14 +243,14 @@ static void cross_product(double *out, const double *const in[BUILTIN_ARGUMENTS]
     const double *a = in[0], *b = in[1];
 
     for (int i = 0; i < n; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
         out[i] = a[j] * b[k] - a[k] * b[j];
     }
 }
 
 static void normalized(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
 {
-    double scale = inverse_root(sum_of_products(in[0], in[0], n));
+    const double scale = inverse_root(sum_of_products(in[0], in[0], n));
 
     for (int i = 0; i < n; i++) {
         out[i] = in[0][i] * scale;
@@ -259,7 +259,7 @@ static void normalized(double *out, const double *const in[BUILTIN_ARGUMENTS], i
 
 static void face_forward(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
 {
-    double sign = sum_of_products(in[2], in[1], n) < 0 ? 1 : -1;
+    const double sign = sum_of_products(in[2], in[1], n) < 0 ? 1 : -1;
 
     for (int i = 0; i < n; i++) {
         out[i] = sign * in[0][i];
@@ -268,7 +268,7 @@ static void face_forward(double *out, const double *const in[BUILTIN_ARGUMENTS],
 
 static void reflected(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
 {
-    double twice = 2 * sum_of_products(in[1], in[0], n);
+    const double twice = 2 * sum_of_products(in[1], in[0], n);
 
     for (int i = 0; i < n; i++) {
         out[i] = in[0][i] - twice * in[1][i];
@@ -278,8 +278,8 @@ static void reflected(double *out, const double *const in[BUILTIN_ARGUMENTS], in
 /* GLSL 4.30, 8.5 */
 static void refracted(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
 {
-    double eta = in[2][0], along = sum_of_products(in[1], in[0], n);
-    double k = 1 - eta * eta * (1 - along * along);
+    const double eta = in[2][0], along = sum_of_products(in[1], in[0], n);
+    const double k = 1 - eta * eta * (1 - along * along);
 
     for (int i = 0; i < n; i++) {
         out[i] = k < 0 ? 0 : eta * in[0][i] - (eta * along + sqrt(k)) * in[1][i];
@@ -327,7 +327,7 @@ static double cofactor(const double *m, int n, int row, int column)
             rest[count++] = m[i];
         }
     }
-    double sign = (row + column) % 2 == 0 ? 1 : -1;
+    const double sign = (row + column) % 2 == 0 ? 1 : -1;
     if (n == 2) {
         return sign * rest[0];
     }

@@ -46,7 +46,7 @@ bool check_declare(struct checker *checker, struct variable *variable)
 static bool check_type(struct checker *checker, struct variable *variable)
 {
     char name[TYPE_NAME_BYTES];
-    bool parameter = variable->storage == STORAGE_PARAMETER;
+    const bool parameter = variable->storage == STORAGE_PARAMETER;
 
     if (variable->type.base == BASE_VOID || (type_is_handle(variable->type) && !parameter)) {
         return CHECK_FAIL(checker, variable->at, "%s cannot be the type of a %s",
@@ -149,7 +149,7 @@ static bool check_return(struct checker *checker, struct stmt *stmt)
 {
     const struct function *function = checker->function;
     char name[TYPE_NAME_BYTES];
-    bool nothing = function->result.base == BASE_VOID;
+    const bool nothing = function->result.base == BASE_VOID;
 
     if (!stmt->expr) {
         return nothing || CHECK_FAIL(checker, stmt->at, "%.40s returns %s, not nothing",
@@ -409,7 +409,8 @@ static bool is_entry(const struct function *f, enum code_use use)
         }
     }
     if (use == CODE_SHADE) {
-        bool color = f->result.base == BASE_FLOAT && f->result.rows >= 3 && f->result.columns == 1;
+        const bool color =
+            f->result.base == BASE_FLOAT && f->result.rows >= 3 && f->result.columns == 1;
         return (color || type_is_surface(f->result)) && strcmp(f->name->text, "shade") == 0 &&
                (!p || (p->type.base == BASE_FRAGMENT && !q));
     }
@@ -439,7 +440,7 @@ static bool find_entry(struct checker *checker, enum code_use use)
     const struct function *meant = find_meant(tree, use);
 
     for (struct function *f = tree->functions; f; f = f->next) {
-        bool sdf = strcmp(f->name->text, "sdf") == 0;
+        const bool sdf = strcmp(f->name->text, "sdf") == 0;
         if (is_entry(f, use) && f->body && (!named || sdf)) {
             tree->entry = f;
             named = sdf;
@@ -455,8 +456,8 @@ static bool find_entry(struct checker *checker, enum code_use use)
 bool check_tree(struct tree *tree, const struct code_source *source)
 {
     struct checker checker = {.tree = tree};
-    bool ok = declare_parameters(&checker, source->params) && check_top(&checker) &&
-              check_bounds(tree) && find_entry(&checker, source->use);
+    const bool ok = declare_parameters(&checker, source->params) && check_top(&checker) &&
+                    check_bounds(tree) && find_entry(&checker, source->use);
 
     if (ok) {
         check_reach(tree->entry);

@@ -104,7 +104,7 @@ static bool walk_call(struct bounds_walk *walk, struct cost *cost, const struct 
 static long size_of(const struct expr *expr)
 {
     enum { HEAVY = 8 };
-    long count = type_components(expr->type);
+    const long count = type_components(expr->type);
     bool divides =
         type_is_integer(expr->type) && (expr->op == OP_DIVIDE || expr->op == OP_REMAINDER);
     if (expr->value) {

@@ -170,7 +170,7 @@ bool check_construct(struct checker *checker, struct expr *expr)
                            : check_surface(checker, expr);
     }
     if (expr->array) {
-        bool unsized = !expr->a;
+        const bool unsized = !expr->a;
         if (expr->a && !check_length(checker, expr->a, &expr->type.count)) {
             return false;
         }
@@ -272,7 +272,7 @@ static bool match_lengths(const struct builtin *row, const struct expr *args, en
 static bool match_vectors(const struct builtin *row, const struct expr *args, struct match *match)
 {
     int rows;
-    bool shape = common_rows(args, &rows);
+    const bool shape = common_rows(args, &rows);
     enum base base = common_base(args);
 
     if (!shape) {
@@ -374,7 +374,7 @@ static bool converts(const struct expr *args, const struct match *match)
 {
     for (int i = 0; args; args = args->next, i++) {
         struct type to = match->wanted[i], from = args->type;
-        bool number = type_is_number(from) && type_is_number(to) && from.base != BASE_BOOL;
+        const bool number = type_is_number(from) && type_is_number(to) && from.base != BASE_BOOL;
         if (!type_equal(from, to) &&
             (from.columns != to.columns || (from.rows != to.rows && from.rows > 1) ||
              (from.base != to.base && !number))) {
@@ -447,7 +447,7 @@ static int cost_of_all(const struct function *function, const struct expr *args,
         return -1;
     }
     for (const struct variable *p = function->parameters; p; p = p->next, args = args->next) {
-        int one = cost_of(p, args);
+        const int one = cost_of(p, args);
         if (one < 0) {
             return -1;
         }
@@ -503,7 +503,7 @@ static bool check_function(struct checker *checker, struct expr *expr)
     int best_cost = -1, same = 0;
 
     for (struct function *f = expr->name->functions; f; f = f->overload) {
-        int cost = cost_of_all(f, expr->args, expr->arg_count);
+        const int cost = cost_of_all(f, expr->args, expr->arg_count);
         if (cost >= 0 && (best_cost < 0 || cost < best_cost)) {
             best = f;
             best_cost = cost;

@@ -14,7 +14,7 @@ static long most(long a, long b)
 
 long check_work_of_builtin(const struct expr *expr)
 {
-    long count = most(type_components(expr->type), type_components(expr->args->type));
+    const long count = most(type_components(expr->type), type_components(expr->args->type));
 
     return expr->builtin->weight > 0 ? count * expr->builtin->weight : count;
 }
@@ -24,7 +24,7 @@ static long load_of_builtin(const struct expr *expr)
 {
     enum { WHOLE = 24 };
     const struct builtin *builtin = expr->builtin;
-    long work = check_work_of_builtin(expr), count = work / most(builtin->weight, 1);
+    const long work = check_work_of_builtin(expr), count = work / most(builtin->weight, 1);
     if (builtin->family == FAMILY_NUMBER && type_is_integer(expr->type)) {
         return count * WHOLE;
     }

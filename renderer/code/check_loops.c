@@ -55,8 +55,8 @@ static bool check_bound(struct checker *checker, struct stmt *stmt, enum op *out
     if (!check_value(checker, test)) {
         return false;
     }
-    bool compares = test->kind == EXPR_BINARY && test->op >= OP_LESS && test->op <= OP_UNEQUAL &&
-                    test->op != OP_EQUAL;
+    const bool compares = test->kind == EXPR_BINARY && test->op >= OP_LESS &&
+                          test->op <= OP_UNEQUAL && test->op != OP_EQUAL;
     if (compares && is_variable(test->a, stmt->variable) && test->b->value) {
         *out_op = test->op;
         *out_bound = *test->b->value;
@@ -90,8 +90,8 @@ static bool check_step(struct checker *checker, struct stmt *stmt)
         op = step->b->op;
         by = step->b->b;
     }
-    bool ok = (step->kind == EXPR_STEP || (by && by->value)) &&
-              is_variable(step->a, stmt->variable) && (op == OP_ADD || op == OP_SUBTRACT);
+    const bool ok = (step->kind == EXPR_STEP || (by && by->value)) &&
+                    is_variable(step->a, stmt->variable) && (op == OP_ADD || op == OP_SUBTRACT);
     if (!ok) {
         return refuse_loop(checker, step->at, "the step of the loop is not constant");
     }
@@ -124,11 +124,11 @@ static bool fits(struct type type, double number)
 /* Counted with the floats that a driver has. */
 static bool count_trips(struct checker *checker, struct stmt *stmt, enum op op, double bound)
 {
-    bool whole = stmt->variable->type.base != BASE_FLOAT;
+    const bool whole = stmt->variable->type.base != BASE_FLOAT;
     double at = stmt->start;
 
     while (stmt->trips <= LIMIT_CODE_TRIPS && goes_on(op, at, bound)) {
-        double next = whole ? at + stmt->step : (double)((float)at + (float)stmt->step);
+        const double next = whole ? at + stmt->step : (double)((float)at + (float)stmt->step);
         if (next == at || (!fits(stmt->variable->type, next) && goes_on(op, next, bound))) {
             return refuse_loop(checker, stmt->at, "the loop never ends");
         }
@@ -156,7 +156,7 @@ bool check_for(struct checker *checker, struct stmt *stmt)
     }
     variable->counter = true;
     checker->loops++;
-    bool ok = check_statement(checker, stmt->body);
+    const bool ok = check_statement(checker, stmt->body);
     checker->loops--;
     return ok;
 }

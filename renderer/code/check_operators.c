@@ -19,8 +19,8 @@ bool check_convert(struct checker *checker, struct expr **expr, struct type to)
     if (type_equal(type, to)) {
         return true;
     }
-    bool shape = type.count == 0 && to.count == 0 && type.columns == to.columns &&
-                 (type.rows == to.rows || type_is_scalar(type));
+    const bool shape = type.count == 0 && to.count == 0 && type.columns == to.columns &&
+                       (type.rows == to.rows || type_is_scalar(type));
     if (!shape || type_components(type) == 0 || type_is_handle(to) ||
         !base_fits((enum base)type.base, (enum base)to.base)) {
         return false;
@@ -45,8 +45,8 @@ bool check_fit(struct checker *checker, struct expr **expr, struct type to, cons
     }
     type_name(to, wanted);
     type_name((*expr)->type, given);
-    bool narrows = type_is_number(to) && type_is_number((*expr)->type) &&
-                   to.rows == (*expr)->type.rows && to.columns == 1;
+    const bool narrows = type_is_number(to) && type_is_number((*expr)->type) &&
+                         to.rows == (*expr)->type.rows && to.columns == 1;
     return CHECK_FAIL(checker, (*expr)->at, "%s is %s, not %s%s%s%s", what, given, wanted,
                       narrows ? "; write " : "", narrows ? wanted : "", narrows ? "(...)" : "");
 }
@@ -66,7 +66,7 @@ static bool refuse(struct checker *checker, const struct expr *expr)
 static bool join_bases(struct checker *checker, struct expr *expr, bool keep, bool shape)
 {
     struct type a = expr->a->type, b = expr->b->type;
-    bool to_b = !keep && base_fits((enum base)a.base, (enum base)b.base);
+    const bool to_b = !keep && base_fits((enum base)a.base, (enum base)b.base);
 
     if (!to_b && !base_fits((enum base)b.base, (enum base)a.base)) {
         return false;
@@ -94,8 +94,8 @@ static bool join_shapes(enum op op, struct type a, struct type b, struct type *o
     if (type_is_scalar(b)) {
         return true;
     }
-    bool matrix_vector = type_is_matrix(a) && type_is_vector(b);
-    bool vector_matrix = type_is_vector(a) && type_is_matrix(b);
+    const bool matrix_vector = type_is_matrix(a) && type_is_vector(b);
+    const bool vector_matrix = type_is_vector(a) && type_is_matrix(b);
     if (op != OP_MULTIPLY || a.rows != b.rows || !(matrix_vector || vector_matrix)) {
         return false;
     }
@@ -117,7 +117,7 @@ static bool check_zero(struct checker *checker, const struct expr *expr)
 
 static bool check_arithmetic(struct checker *checker, struct expr *expr, bool keep)
 {
-    bool divides = expr->op == OP_DIVIDE || expr->op == OP_REMAINDER;
+    const bool divides = expr->op == OP_DIVIDE || expr->op == OP_REMAINDER;
 
     if (!type_is_number(expr->a->type) || !type_is_number(expr->b->type)) {
         return refuse(checker, expr);
@@ -127,7 +127,7 @@ static bool check_arithmetic(struct checker *checker, struct expr *expr, bool ke
         return CHECK_FAIL(checker, expr->at, "%% is for int; write mod(), or fmod()");
     }
     /* Helpers divide whole numbers, and want one shape. */
-    bool whole = type_is_integer(expr->a->type) && type_is_integer(expr->b->type);
+    const bool whole = type_is_integer(expr->a->type) && type_is_integer(expr->b->type);
     struct type kept = expr->a->type;
     if (!join_bases(checker, expr, keep, divides && whole) ||
         !join_shapes(expr->op, expr->a->type, expr->b->type, &expr->type) ||
@@ -139,7 +139,7 @@ static bool check_arithmetic(struct checker *checker, struct expr *expr, bool ke
 
 static bool check_bits(struct checker *checker, struct expr *expr, bool keep)
 {
-    bool shifts = expr->op == OP_SHIFT_LEFT || expr->op == OP_SHIFT_RIGHT;
+    const bool shifts = expr->op == OP_SHIFT_LEFT || expr->op == OP_SHIFT_RIGHT;
     struct type a = expr->a->type, b = expr->b->type;
 
     if (!type_is_integer(a) || !type_is_integer(b)) {
@@ -160,7 +160,7 @@ static bool check_bits(struct checker *checker, struct expr *expr, bool keep)
 static bool check_comparison(struct checker *checker, struct expr *expr)
 {
     struct type a = expr->a->type, b = expr->b->type;
-    bool order = expr->op != OP_EQUAL && expr->op != OP_UNEQUAL;
+    const bool order = expr->op != OP_EQUAL && expr->op != OP_UNEQUAL;
 
     expr->type = type_vector(BASE_BOOL, 1);
     if (order && (type_is_vector(a) || type_is_vector(b))) {
@@ -168,12 +168,12 @@ static bool check_comparison(struct checker *checker, struct expr *expr)
                           "%s compares numbers; for vectors write lessThan(), greaterThan(), ...",
                           tree_op_text(expr->op));
     }
-    bool ok = order ? type_is_number(a) && type_is_number(b) &&
-                          join_bases(checker, expr, false, false) && type_is_scalar(a) &&
-                          type_is_scalar(b)
-                    : type_components(a) > 0 && !type_is_surface(a) && a.count == 0 &&
-                          b.count == 0 && a.rows == b.rows && a.columns == b.columns &&
-                          join_bases(checker, expr, false, false);
+    const bool ok = order ? type_is_number(a) && type_is_number(b) &&
+                                join_bases(checker, expr, false, false) && type_is_scalar(a) &&
+                                type_is_scalar(b)
+                          : type_components(a) > 0 && !type_is_surface(a) && a.count == 0 &&
+                                b.count == 0 && a.rows == b.rows && a.columns == b.columns &&
+                                join_bases(checker, expr, false, false);
     return ok || refuse(checker, expr);
 }
 

@@ -127,8 +127,8 @@ static bool check_results(struct checker *checker, const struct expr *call)
 
 bool check_order(struct checker *checker, const struct expr *expr)
 {
-    bool ordered = expr->kind == EXPR_COMMA || expr->kind == EXPR_CHOICE ||
-                   (expr->kind == EXPR_BINARY && (expr->op == OP_AND || expr->op == OP_OR));
+    const bool ordered = expr->kind == EXPR_COMMA || expr->kind == EXPR_CHOICE ||
+                         (expr->kind == EXPR_BINARY && (expr->op == OP_AND || expr->op == OP_OR));
 
     if (!expr->effects || ordered) {
         return true;

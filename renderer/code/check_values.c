@@ -58,7 +58,7 @@ bool check_fold(struct checker *checker, struct expr *expr)
     if (expr->effects || !all_constant(expr)) {
         return true;
     }
-    int count = type_components(expr->type);
+    const int count = type_components(expr->type);
     double *value = tree_alloc(checker->tree, (size_t)count * sizeof *value);
     if (!lower_constant(expr, &checker->scratch, value)) {
         return tree_fail_limit(checker->tree, expr->at, "numbers in a constant", MACHINE_VALUES,
@@ -111,9 +111,9 @@ static bool check_unary(struct checker *checker, struct expr *expr)
 {
     char name[TYPE_NAME_BYTES];
     struct type type = expr->a->type;
-    bool ok = expr->op == OP_NOT      ? type_is(type, BASE_BOOL)
-              : expr->op == OP_INVERT ? type_is_integer(type)
-                                      : type_is_number(type);
+    const bool ok = expr->op == OP_NOT      ? type_is(type, BASE_BOOL)
+                    : expr->op == OP_INVERT ? type_is_integer(type)
+                                            : type_is_number(type);
 
     if (!ok) {
         return CHECK_FAIL(checker, expr->at, "%s cannot be used on %s%s", tree_op_text(expr->op),
@@ -149,8 +149,8 @@ static bool check_choice(struct checker *checker, struct expr *expr)
         return CHECK_FAIL(checker, expr->at, "the condition of ? is %s, not bool",
                           type_name(expr->a->type, b));
     }
-    bool ok = check_convert(checker, &expr->b, expr->c->type) ||
-              check_convert(checker, &expr->c, expr->b->type);
+    const bool ok = check_convert(checker, &expr->b, expr->c->type) ||
+                    check_convert(checker, &expr->c, expr->b->type);
     if (!ok || expr->b->type.count > 0 || type_components(expr->b->type) == 0) {
         return CHECK_FAIL(checker, expr->at, "? cannot choose between %s and %s",
                           type_name(expr->b->type, b), type_name(expr->c->type, c));
@@ -267,7 +267,7 @@ static bool check_swizzle(struct checker *checker, struct expr *expr)
     const char *text = expr->name->text;
     char name[TYPE_NAME_BYTES];
     struct type type = expr->a->type;
-    size_t count = strlen(text);
+    const size_t count = strlen(text);
     const char *set = NULL;
 
     for (size_t i = 0; i < 3 && !set; i++) {

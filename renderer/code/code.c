@@ -16,7 +16,7 @@
 
 static bool check_length_of(const char *text, struct error *err)
 {
-    size_t length = strlen(text);
+    const size_t length = strlen(text);
 
     return length <= LIMIT_CODE_BYTES ||
            error_set_at(err, ERROR_LIMIT, "", 1, 1,
@@ -204,7 +204,7 @@ void code_shade(const struct code *code, const struct code_shading *at, const do
         is_color = is_color && fabs(call.out[i]) < CODE_FAR;
     }
     for (int i = 0; i < 4; i++) {
-        double most = i < 3 ? CODE_BRIGHT : 1;
+        const double most = i < 3 ? CODE_BRIGHT : 1;
         out_rgba[i] = is_color ? fmin(fmax(call.out[i], 0), most) : magenta[i];
     }
 }

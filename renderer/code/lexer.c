@@ -143,7 +143,7 @@ static bool skip_blank(struct lexer *lexer)
 
 static bool matches(const char *pattern, const char *text, size_t length)
 {
-    size_t fixed = strcspn(pattern, "*");
+    const size_t fixed = strcspn(pattern, "*");
 
     return strncmp(pattern, text, fixed < length ? fixed : length) == 0 &&
            (pattern[fixed] == '*' ? length >= fixed : length == fixed);
@@ -210,14 +210,14 @@ static bool add_number(struct lexer *lexer, size_t length, enum base base, doubl
 static bool read_whole(struct lexer *lexer)
 {
     const char *text = lexer->next;
-    bool hex = text[0] == '0' && (text[1] == 'x' || text[1] == 'X');
+    const bool hex = text[0] == '0' && (text[1] == 'x' || text[1] == 'X');
     char *end;
 
     errno = 0;
-    unsigned long long number = strtoull(text, &end, 0);
-    bool plain = !hex && text[0] != '0';
-    bool is_unsigned = *end == 'u' || *end == 'U';
-    double most = plain && !is_unsigned ? 2147483647.0 : 4294967295.0;
+    const unsigned long long number = strtoull(text, &end, 0);
+    const bool plain = !hex && text[0] != '0';
+    const bool is_unsigned = *end == 'u' || *end == 'U';
+    const double most = plain && !is_unsigned ? 2147483647.0 : 4294967295.0;
     if (errno == ERANGE || (double)number > most) {
         return FAIL(lexer, "this number is above the maximum %.0f of %s", most,
                     is_unsigned ? "uint" : "int");
@@ -246,18 +246,18 @@ static bool read_number(struct lexer *lexer)
         length += strspn(text + length, "0123456789");
     }
     if (text[length] == 'e' || text[length] == 'E') {
-        size_t sign = text[length + 1] == '+' || text[length + 1] == '-';
-        size_t digits = strspn(text + length + 1 + sign, "0123456789");
+        const size_t sign = text[length + 1] == '+' || text[length + 1] == '-';
+        const size_t digits = strspn(text + length + 1 + sign, "0123456789");
         if (digits > 0) {
             whole = false;
             length += 1 + sign + digits;
         }
     }
-    bool suffix = text[length] != '\0' && strchr("fFhH", text[length]);
+    const bool suffix = text[length] != '\0' && strchr("fFhH", text[length]);
     if (whole && !suffix) {
         return read_whole(lexer);
     }
-    double number = strtod(text, NULL);
+    const double number = strtod(text, NULL);
     if (number > (double)FLT_MAX) {
         return FAIL(lexer, "this number is above the maximum %g of float", (double)FLT_MAX);
     }
@@ -266,7 +266,7 @@ static bool read_number(struct lexer *lexer)
 
 static bool refuse_character(struct lexer *lexer)
 {
-    unsigned char c = (unsigned char)*lexer->next;
+    const unsigned char c = (unsigned char)*lexer->next;
 
     if (c == '#') {
         return FAIL(lexer, "there is no preprocessor: for #define write const float NAME = ...;");
@@ -283,7 +283,7 @@ static bool refuse_character(struct lexer *lexer)
 static bool read_mark(struct lexer *lexer)
 {
     for (size_t i = 0; i < MARKS; i++) {
-        size_t length = strlen(texts[i]);
+        const size_t length = strlen(texts[i]);
         if (strncmp(texts[i], lexer->next, length) == 0) {
             add(lexer, (enum token_kind)i, length);
             return true;

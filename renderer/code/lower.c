@@ -36,7 +36,7 @@ static void lower_statements(struct lower *lower, const struct stmt *list)
 /* A place that lasts until the block ends. */
 static uint16_t alloc_local(struct lower *lower, int count)
 {
-    uint16_t at = lower_alloc(lower, count);
+    const uint16_t at = lower_alloc(lower, count);
 
     lower->locals = lower->top;
     return at;
@@ -63,7 +63,7 @@ static void lower_declaration(struct lower *lower, const struct stmt *stmt)
     if (variable->value) {
         return; /* wherever it is used, its value is */
     }
-    int count = type_components(variable->type);
+    const int count = type_components(variable->type);
     variable->at_frame = alloc_local(lower, count);
     if (stmt->expr) {
         lower_move(lower, variable->at_frame, lower_value(lower, stmt->expr), count);
@@ -74,11 +74,11 @@ static void lower_declaration(struct lower *lower, const struct stmt *stmt)
 
 static void lower_if(struct lower *lower, const struct stmt *stmt)
 {
-    size_t no = lower_jump(lower, STEP_UNLESS, lower_value(lower, stmt->expr));
+    const size_t no = lower_jump(lower, STEP_UNLESS, lower_value(lower, stmt->expr));
 
     lower_statement(lower, stmt->body);
     if (stmt->other) {
-        size_t end = lower_jump(lower, STEP_JUMP, 0);
+        const size_t end = lower_jump(lower, STEP_JUMP, 0);
         lower_land(lower, no);
         lower_statement(lower, stmt->other);
         lower_land(lower, end);
@@ -117,10 +117,10 @@ static void lower_for(struct lower *lower, const struct stmt *stmt)
     if (stmt->trips == 0) {
         return;
     }
-    uint16_t counter = alloc_local(lower, 1);
+    const uint16_t counter = alloc_local(lower, 1);
     stmt->variable->at_frame = alloc_local(lower, 1);
     lower_move(lower, counter, lower_number(lower, BASE_FLOAT, &zero, 1), 1);
-    size_t top = lower->label = lower->code->step_count;
+    const size_t top = lower->label = lower->code->step_count;
     lower_counter(lower, stmt, counter);
     lower->breaks = &breaks;
     lower->continues = &continues;
@@ -213,12 +213,12 @@ static void lower_function(struct lower *lower, struct function *function)
 static void close_up(const struct lower *lower)
 {
     struct machine_code *code = lower->code;
-    uint16_t by = (uint16_t)(MACHINE_VALUES - lower->peak);
+    const uint16_t by = (uint16_t)(MACHINE_VALUES - lower->peak);
 
     for (size_t i = 0; i < code->step_count; i++) {
         struct step *s = &code->steps[i];
         uint16_t *const places[] = {&s->a, &s->b, &s->c, &s->out};
-        int count = s->kind >= STEP_JUMP ? 3 : 4; /* where they jump is no place */
+        const int count = s->kind >= STEP_JUMP ? 3 : 4; /* where they jump is no place */
         for (int k = 0; k < count; k++) {
             if (*places[k] >= MACHINE_VALUES && *places[k] != MACHINE_NOWHERE) {
                 *places[k] = (uint16_t)(*places[k] - by);
@@ -264,7 +264,7 @@ bool lower_tree(struct tree *tree, struct machine_code *out)
 
 bool lower_constant(const struct expr *expr, struct machine_code *scratch, double *out)
 {
-    size_t bytes = (size_t)type_components(expr->type) * sizeof *out;
+    const size_t bytes = (size_t)type_components(expr->type) * sizeof *out;
     struct lower lower = {.code = scratch};
 
     scratch->step_count = scratch->constant_count = 0;

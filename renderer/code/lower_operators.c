@@ -5,7 +5,7 @@
 /* As `count` components. */
 struct operand lower_operand(struct lower *lower, const struct expr *expr, int count)
 {
-    int own = type_components(expr->type);
+    const int own = type_components(expr->type);
 
     if (expr->value && own > 1) {
         bool same = true;
@@ -17,9 +17,10 @@ struct operand lower_operand(struct lower *lower, const struct expr *expr, int c
                                     true};
         }
     }
-    bool spreads = !expr->value && expr->kind == EXPR_CONSTRUCT && type_is_vector(expr->type) &&
-                   expr->arg_count == 1 && type_is_scalar(expr->args->type) &&
-                   expr->args->type.base == expr->type.base;
+    const bool spreads = !expr->value && expr->kind == EXPR_CONSTRUCT &&
+                         type_is_vector(expr->type) && expr->arg_count == 1 &&
+                         type_is_scalar(expr->args->type) &&
+                         expr->args->type.base == expr->type.base;
     if (spreads) {
         return (struct operand){lower_value(lower, expr->args), count > 1};
     }
@@ -57,17 +58,17 @@ static uint16_t negated(struct lower *lower, uint16_t at)
 uint16_t lower_arithmetic(struct lower *lower, enum op op, struct type result, struct operand a,
                           struct operand b)
 {
-    int count = type_components(result);
+    const int count = type_components(result);
 
     if (type_is_integer(result)) {
         uint8_t flags = result.base == BASE_UINT ? STEP_UNSIGNED : 0;
         return lower_join(lower, STEP_WHOLE, count, a, b,
                           (struct step){.extra = (uint8_t)op, .flags = flags});
     }
-    enum step_kind kind = op == OP_ADD        ? STEP_ADD
-                          : op == OP_SUBTRACT ? STEP_SUBTRACT
-                          : op == OP_MULTIPLY ? STEP_MULTIPLY
-                                              : STEP_DIVIDE;
+    const enum step_kind kind = op == OP_ADD        ? STEP_ADD
+                                : op == OP_SUBTRACT ? STEP_SUBTRACT
+                                : op == OP_MULTIPLY ? STEP_MULTIPLY
+                                                    : STEP_DIVIDE;
     return lower_join(lower, kind, count, a, b, (struct step){.parts = (uint8_t)count});
 }
 
@@ -80,8 +81,8 @@ bool lower_is_product(enum op op, struct type a, struct type b)
 uint16_t lower_product(struct lower *lower, struct type a_type, uint16_t a, struct type b_type,
                        uint16_t b)
 {
-    bool row = type_is_vector(a_type); /* v * M: the vector is a row */
-    int rows = row ? 1 : a_type.rows, inner = row ? a_type.rows : a_type.columns;
+    const bool row = type_is_vector(a_type); /* v * M: the vector is a row */
+    const int rows = row ? 1 : a_type.rows, inner = row ? a_type.rows : a_type.columns;
     struct step step = {.kind = STEP_PRODUCT,
                         .n = (uint16_t)rows,
                         .a = a,
@@ -99,7 +100,7 @@ static uint16_t compare(struct lower *lower, enum op op, struct type type, struc
                         struct operand b)
 {
     const struct step of = {.base = type.base};
-    int count = type_components(type);
+    const int count = type_components(type);
     uint16_t out;
 
     switch (op) {
@@ -120,13 +121,13 @@ static uint16_t compare(struct lower *lower, enum op op, struct type type, struc
 /* && and ||: the second is looked at only where it matters. */
 static uint16_t lower_logic(struct lower *lower, const struct expr *expr)
 {
-    uint16_t out = lower_alloc(lower, 1);
-    uint16_t a = lower_value(lower, expr->a);
+    const uint16_t out = lower_alloc(lower, 1);
+    const uint16_t a = lower_value(lower, expr->a);
 
     lower_move(lower, out, a, 1);
-    uint16_t skip_unless = expr->op == OP_AND ? out : negated(lower, out);
-    size_t jump = lower_jump(lower, STEP_UNLESS, skip_unless);
-    uint16_t b = lower_value(lower, expr->b);
+    const uint16_t skip_unless = expr->op == OP_AND ? out : negated(lower, out);
+    const size_t jump = lower_jump(lower, STEP_UNLESS, skip_unless);
+    const uint16_t b = lower_value(lower, expr->b);
     lower_move(lower, out, b, 1);
     lower_land(lower, jump);
     return out;
@@ -140,11 +141,11 @@ uint16_t lower_binary(struct lower *lower, const struct expr *expr)
         return lower_logic(lower, expr);
     }
     if (lower_is_product(expr->op, a_type, b_type)) {
-        uint16_t a = lower_value(lower, expr->a);
+        const uint16_t a = lower_value(lower, expr->a);
         return lower_product(lower, a_type, a, b_type, lower_value(lower, expr->b));
     }
-    bool compares = expr->op >= OP_LESS && expr->op <= OP_XOR;
-    int count = type_components(compares ? a_type : expr->type);
+    const bool compares = expr->op >= OP_LESS && expr->op <= OP_XOR;
+    const int count = type_components(compares ? a_type : expr->type);
     struct operand a, b;
     if (expr->op == OP_EQUAL || expr->op == OP_UNEQUAL) {
         a = (struct operand){lower_value(lower, expr->a), false};
@@ -161,10 +162,10 @@ uint16_t lower_binary(struct lower *lower, const struct expr *expr)
 uint16_t lower_unary(struct lower *lower, const struct expr *expr)
 {
     static const double zero = 0, ones = -1;
-    int count = type_components(expr->type);
+    const int count = type_components(expr->type);
     struct operand nothing = {MACHINE_NOWHERE, false};
     struct operand a = {lower_value(lower, expr->a), false};
-    bool whole = type_is_integer(expr->type);
+    const bool whole = type_is_integer(expr->type);
 
     lower->origin = (struct origin){expr->at, tree_op_text(expr->op)};
     if (expr->op == OP_PLUS) {
@@ -189,12 +190,12 @@ uint16_t lower_unary(struct lower *lower, const struct expr *expr)
 
 uint16_t lower_choice(struct lower *lower, const struct expr *expr)
 {
-    int count = type_components(expr->type);
-    uint16_t out = lower_alloc(lower, count);
-    size_t no = lower_jump(lower, STEP_UNLESS, lower_value(lower, expr->a));
+    const int count = type_components(expr->type);
+    const uint16_t out = lower_alloc(lower, count);
+    const size_t no = lower_jump(lower, STEP_UNLESS, lower_value(lower, expr->a));
 
     lower_move(lower, out, lower_value(lower, expr->b), count);
-    size_t end = lower_jump(lower, STEP_JUMP, 0);
+    const size_t end = lower_jump(lower, STEP_JUMP, 0);
     lower_land(lower, no);
     lower_move(lower, out, lower_value(lower, expr->c), count);
     lower_land(lower, end);

@@ -7,10 +7,10 @@
 /* What is at `index` of it, one of `count` of this type. */
 static void spot_index(struct lower *lower, struct spot *spot, const struct expr *index)
 {
-    int count = type_elements(spot->type);
+    const int count = type_elements(spot->type);
 
     spot->type = type_element(spot->type);
-    int stride = type_components(spot->type);
+    const int stride = type_components(spot->type);
     if (index->value) {
         spot->at = (uint16_t)(spot->at + (int)index->value[0] * stride);
         return;
@@ -97,7 +97,7 @@ uint16_t lower_load(struct lower *lower, const struct spot *spot)
     uint16_t at = spot->at;
 
     if (spot->offset != MACHINE_NOWHERE) {
-        int count = type_components(spot->type);
+        const int count = type_components(spot->type);
         at = lower_alloc(lower, count);
         lower_step(lower, (struct step){.kind = STEP_LOAD,
                                         .n = (uint16_t)count,
@@ -124,10 +124,10 @@ uint16_t lower_load(struct lower *lower, const struct spot *spot)
 
 void lower_store(struct lower *lower, const struct spot *spot, uint16_t from)
 {
-    int count = spot->count > 0 ? spot->count : type_components(spot->type);
+    const int count = spot->count > 0 ? spot->count : type_components(spot->type);
 
     if (spot->offset == MACHINE_NOWHERE && in_a_row(spot)) {
-        uint16_t first = spot->count > 0 ? spot->swizzle[0] : 0;
+        const uint16_t first = spot->count > 0 ? spot->swizzle[0] : 0;
         lower_move(lower, (uint16_t)(spot->at + first), from, count);
         return;
     }
@@ -163,11 +163,11 @@ uint16_t lower_assign(struct lower *lower, const struct expr *expr, bool wanted)
         return wanted ? lower_load(lower, &spot) : 0;
     }
     struct type type = expr->type;
-    int count = type_components(type);
+    const int count = type_components(type);
     struct operand left = {lower_load(lower, &spot), false};
     uint16_t out;
     if (lower_is_product(expr->op, type, expr->b->type)) {
-        uint16_t right = lower_value(lower, expr->b);
+        const uint16_t right = lower_value(lower, expr->b);
         lower->origin = (struct origin){expr->at, tree_op_text(expr->op)};
         out = lower_product(lower, type, left.at, expr->b->type, right);
     } else {
@@ -183,19 +183,19 @@ uint16_t lower_assign(struct lower *lower, const struct expr *expr, bool wanted)
 uint16_t lower_increment(struct lower *lower, const struct expr *expr, bool wanted)
 {
     static const double ones = 1;
-    int count = type_components(expr->type);
+    const int count = type_components(expr->type);
     struct spot spot = lower_spot(lower, expr->a);
     uint16_t old = lower_load(lower, &spot);
 
     if (expr->postfix && wanted) {
-        uint16_t copy = lower_alloc(lower, count);
+        const uint16_t copy = lower_alloc(lower, count);
         lower_move(lower, copy, old, count);
         old = copy;
     }
     lower->origin = (struct origin){expr->at, expr->op == OP_ADD ? "++" : "--"};
-    uint16_t one = lower_number(lower, (enum base)expr->type.base, &ones, 1);
-    uint16_t out = lower_arithmetic(lower, expr->op, expr->type, (struct operand){old, false},
-                                    (struct operand){one, count > 1});
+    const uint16_t one = lower_number(lower, (enum base)expr->type.base, &ones, 1);
+    const uint16_t out = lower_arithmetic(lower, expr->op, expr->type, (struct operand){old, false},
+                                          (struct operand){one, count > 1});
     lower_store(lower, &spot, out);
     return expr->postfix || !wanted ? old : lower_load(lower, &spot);
 }

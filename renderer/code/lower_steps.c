@@ -11,7 +11,7 @@ uint16_t lower_alloc(struct lower *lower, int count)
         lower->full = true;
         return 0;
     }
-    uint16_t at = lower->top;
+    const uint16_t at = lower->top;
     lower->top = (uint16_t)(lower->top + count);
     lower->peak = lower->top > lower->peak ? lower->top : lower->peak;
     return at;
@@ -44,7 +44,7 @@ uint16_t lower_number(struct lower *lower, enum base base, const double *numbers
 {
     enum { LOOKED_AT = 64 };
     struct machine_code *code = lower->code;
-    size_t size = (size_t)count, have = code->constant_count;
+    const size_t size = (size_t)count, have = code->constant_count;
     for (size_t back = size; back <= have && back <= size + LOOKED_AT; back++) {
         if (are_constants(code, have - back, base, numbers, size)) {
             return (uint16_t)(MACHINE_VALUES + have - back);
@@ -118,16 +118,16 @@ static bool may_go_to(const struct step *s, uint16_t to)
 {
     enum { REACH_MAX = 16 };
     const uint16_t operands[] = {s->a, s->b, s->c};
-    bool each = s->kind != STEP_GATHER && s->kind != STEP_PRODUCT && s->kind != STEP_TOGETHER &&
-                s->kind != STEP_EQUAL;
+    const bool each = s->kind != STEP_GATHER && s->kind != STEP_PRODUCT &&
+                      s->kind != STEP_TOGETHER && s->kind != STEP_EQUAL;
     const bool jets = s->kind == STEP_TOGETHER && builtin_table[s->extra].family == FAMILY_JET;
-    int used = s->kind == STEP_PRODUCT ? 2 : 3; /* c is no operand there */
+    const int used = s->kind == STEP_PRODUCT ? 2 : 3; /* c is no operand there */
     for (int i = 0; i < used && !(each && s->n == 1); i++) {
-        int from = operands[i], reach = each   ? s->n
-                                        : jets ? builtin_table[s->extra].sizes[1 + i]
-                                               : REACH_MAX;
-        bool same_place = each && from == to && !(s->flags & (SPREAD_A << i));
-        bool apart = from >= to + results(s) || from + reach <= to;
+        const int from = operands[i], reach = each   ? s->n
+                                              : jets ? builtin_table[s->extra].sizes[1 + i]
+                                                     : REACH_MAX;
+        const bool same_place = each && from == to && !(s->flags & (SPREAD_A << i));
+        const bool apart = from >= to + results(s) || from + reach <= to;
         if (from != MACHINE_NOWHERE && !same_place && !apart) {
             return false;
         }

@@ -9,8 +9,8 @@
 static uint16_t converted(struct lower *lower, const struct expr *arg, enum base to)
 {
     static const double zero = 0;
-    enum base from = (enum base)arg->type.base;
-    int count = type_components(arg->type);
+    const enum base from = (enum base)arg->type.base;
+    const int count = type_components(arg->type);
     struct operand a = {lower_value(lower, arg), false};
 
     if (from == to) {
@@ -27,8 +27,8 @@ static uint16_t converted(struct lower *lower, const struct expr *arg, enum base
 /* A matrix of a number, or of another matrix: ones on the diagonal, and what there is. */
 static uint16_t lower_matrix(struct lower *lower, const struct expr *expr)
 {
-    int size = expr->type.rows, own = expr->args->type.columns;
-    uint16_t from = lower_value(lower, expr->args), out = lower_alloc(lower, size * size);
+    const int size = expr->type.rows, own = expr->args->type.columns;
+    const uint16_t from = lower_value(lower, expr->args), out = lower_alloc(lower, size * size);
     double identity[16] = {0};
 
     for (int i = 0; i < size; i++) {
@@ -48,7 +48,7 @@ static uint16_t lower_matrix(struct lower *lower, const struct expr *expr)
 
 static uint16_t lower_spread(struct lower *lower, const struct expr *expr)
 {
-    int count = expr->type.rows;
+    const int count = expr->type.rows;
     struct step step = {.kind = STEP_MOVE,
                         .n = (uint16_t)count,
                         .flags = SPREAD_A,
@@ -65,7 +65,7 @@ static uint16_t lower_spread(struct lower *lower, const struct expr *expr)
 static uint16_t lower_surface(struct lower *lower, const struct expr *expr)
 {
     uint16_t color = lower_value(lower, expr->args), out = lower_alloc(lower, SURFACE_NUMBERS);
-    uint16_t all = lower_number(lower, BASE_FLOAT, surface_defaults, SURFACE_NUMBERS);
+    const uint16_t all = lower_number(lower, BASE_FLOAT, surface_defaults, SURFACE_NUMBERS);
 
     lower_move(lower, out, all, SURFACE_NUMBERS);
     lower_step(lower, (struct step){.kind = STEP_MOVE, .n = 3, .out = out, .a = color});
@@ -90,11 +90,11 @@ static uint16_t lower_construct(struct lower *lower, const struct expr *expr)
         }
         return converted(lower, expr->args, (enum base)type.base);
     }
-    uint16_t out = lower_alloc(lower, count);
+    const uint16_t out = lower_alloc(lower, count);
     for (const struct expr *arg = expr->args; arg && filled < count; arg = arg->next) {
         int have = type_components(arg->type);
         have = have < count - filled ? have : count - filled;
-        uint16_t from = converted(lower, arg, (enum base)type.base);
+        const uint16_t from = converted(lower, arg, (enum base)type.base);
         lower_move(lower, (uint16_t)(out + filled), from, have);
         filled += have;
     }
@@ -106,7 +106,7 @@ static uint16_t lower_builtin(struct lower *lower, const struct expr *expr)
     const struct builtin *row = expr->builtin;
     struct operand in[BUILTIN_ARGUMENTS];
     int count = type_components(expr->type), i = 0;
-    bool together = row->whole != NULL;
+    const bool together = row->whole != NULL;
 
     for (int k = 0; k < BUILTIN_ARGUMENTS; k++) {
         in[k] = (struct operand){MACHINE_NOWHERE, false};
@@ -155,7 +155,7 @@ static uint16_t lower_call(struct lower *lower, const struct expr *expr)
     }
     i = 0;
     for (parameter = function->parameters; parameter; parameter = parameter->next, i++) {
-        int size = type_components(parameter->type);
+        const int size = type_components(parameter->type);
         if (size > 0 && parameter->direction != DIRECTION_OUT) {
             lower_step(lower, (struct step){.kind = STEP_MOVE,
                                             .n = (uint16_t)size,
@@ -165,7 +165,7 @@ static uint16_t lower_call(struct lower *lower, const struct expr *expr)
     }
     lower_step(lower, (struct step){.kind = STEP_CALL, .out = function->entry});
     lower->label = lower->code->step_count;
-    uint16_t out = lower_alloc(lower, count);
+    const uint16_t out = lower_alloc(lower, count);
     lower_move(lower, out, function->result_at, count);
     i = 0;
     for (parameter = function->parameters; parameter; parameter = parameter->next, i++) {
@@ -187,8 +187,8 @@ static uint16_t lower_variable(struct lower *lower, const struct variable *varia
 static uint16_t lower_constant_value(struct lower *lower, const struct expr *expr)
 {
     struct variable *variable = expr->kind == EXPR_VARIABLE ? expr->variable : NULL;
-    enum base base = type_is_surface(expr->type) ? BASE_FLOAT : (enum base)expr->type.base;
-    int count = type_components(expr->type);
+    const enum base base = type_is_surface(expr->type) ? BASE_FLOAT : (enum base)expr->type.base;
+    const int count = type_components(expr->type);
 
     if (variable && lower->keep && count > 1) {
         if (!variable->placed) {

@@ -111,7 +111,7 @@ static double convert(double x, enum base to)
 static void multiply_matrices(const struct step *s, double *out, const double *a, const double *b)
 {
     double product[COMPONENTS_MAX];
-    int rows = s->n, inner = s->c, columns = s->extra;
+    const int rows = s->n, inner = s->c, columns = s->extra;
 
     for (int column = 0; column < columns; column++) {
         for (int row = 0; row < rows; row++) {
@@ -129,7 +129,7 @@ static void multiply_matrices(const struct step *s, double *out, const double *a
 static void move(const struct step *s, double *out, const double *from)
 {
     if (s->flags & SPREAD_A) {
-        double number = *from;
+        const double number = *from;
         for (int i = 0; i < s->n; i++) {
             out[i] = number;
         }
@@ -214,8 +214,8 @@ static void call(const struct step *s, double *frame)
     const struct builtin *builtin = &builtin_table[s->extra];
     double *out = frame + s->out;
     const double *a = frame + s->a, *b = frame + s->b, *c = frame + s->c;
-    int step_a = !(s->flags & SPREAD_A), step_b = !(s->flags & SPREAD_B),
-        step_c = !(s->flags & SPREAD_C);
+    const int step_a = !(s->flags & SPREAD_A), step_b = !(s->flags & SPREAD_B),
+              step_c = !(s->flags & SPREAD_C);
 
     switch ((enum step_kind)s->kind) {
     case STEP_ONE:
@@ -237,7 +237,7 @@ static void compute(const struct step *s, double *frame)
 {
     double *out = frame + s->out;
     const double *a = frame + s->a, *b = frame + s->b;
-    int step_a = !(s->flags & SPREAD_A), step_b = !(s->flags & SPREAD_B);
+    const int step_a = !(s->flags & SPREAD_A), step_b = !(s->flags & SPREAD_B);
 
     switch ((enum step_kind)s->kind) {
     case STEP_MOVE:

@@ -45,7 +45,7 @@ bool parser_unexpected(struct parser *parser, const char *expected)
 
 bool parser_take(struct parser *parser, enum token_kind kind)
 {
-    bool same = parser->token->kind == kind;
+    const bool same = parser->token->kind == kind;
 
     parser->token += same;
     return same;

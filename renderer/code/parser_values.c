@@ -73,7 +73,7 @@ static struct expr *parse_literal(struct parser *parser, struct type type, doubl
 static struct expr *parse_name(struct parser *parser)
 {
     const struct token *token = parser->token++;
-    bool call = parser_take(parser, TOKEN_OPEN);
+    const bool call = parser_take(parser, TOKEN_OPEN);
     struct expr *expr = node(parser, call ? EXPR_CALL : EXPR_VARIABLE, token->at);
 
     expr->name = tree_name(parser->tree, token->text, token->length);
@@ -208,7 +208,7 @@ static struct expr *parse_postfix(struct parser *parser)
 
     while (expr) {
         struct at at = parser->token->at;
-        enum token_kind kind = parser->token->kind;
+        const enum token_kind kind = parser->token->kind;
         if (parser_take(parser, TOKEN_OPEN_BRACKET)) {
             expr = parse_index(parser, expr, at);
         } else if (parser_take(parser, TOKEN_DOT)) {
@@ -297,7 +297,7 @@ static struct expr *parse_binary(struct parser *parser, int least)
 
     while (left) {
         enum op op = OP_NONE;
-        int binds = precedence(parser->token->kind, &op);
+        const int binds = precedence(parser->token->kind, &op);
         if (binds < least || binds == 0) {
             break;
         }

@@ -40,7 +40,7 @@ void pattern_noise(double *out, const double *const in[], int n)
 void pattern_fbm(double *out, const double *const in[], int n)
 {
     (void)n;
-    int octaves = (int)fmin(fmax(in[1][0], 0), PATTERN_OCTAVES);
+    const int octaves = (int)fmin(fmax(in[1][0], 0), PATTERN_OCTAVES);
 
     out[0] = is_place(in[0]) ? noise_octaves(in[0], octaves, 0) : NAN;
 }
@@ -48,7 +48,7 @@ void pattern_fbm(double *out, const double *const in[], int n)
 void pattern_hash(double *out, const double *const in[], int n)
 {
     uint32_t at[3] = {0};
-    bool is = is_place(in[0]);
+    const bool is = is_place(in[0]);
 
     for (int i = 0; i < n && is; i++) {
         at[i] = (uint32_t)wrap(floor(between_walls(in[0][i])), PERIOD);
@@ -74,7 +74,7 @@ void pattern_triplanar(double *out, const double *const in[], int n)
         greatest = fmax(greatest, fabs(in[0][i]));
     }
     for (int i = 0; i < n; i++) {
-        double x = in[0][i] / greatest;
+        const double x = in[0][i] / greatest;
         out[i] = x * x * x * x + TINY;
         sum += out[i];
     }

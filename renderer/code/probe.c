@@ -30,8 +30,8 @@ static void point_of(const struct code_probe *probe, int index, double out[3])
 
 static void direction_of(int index, double out[3])
 {
-    double z = 2 * fmod(index * 0.7548776662466927, 1) - 1;
-    double turn = 2 * M_PI * fmod(index * 0.5698402909980532, 1), r = sqrt(1 - z * z);
+    const double z = 2 * fmod(index * 0.7548776662466927, 1) - 1;
+    const double turn = 2 * M_PI * fmod(index * 0.5698402909980532, 1), r = sqrt(1 - z * z);
 
     out[0] = r * cos(turn);
     out[1] = r * sin(turn);
@@ -56,14 +56,14 @@ static bool ask(const struct code_probe *probe, const double p[3], double *out, 
     struct code_fault fault;
 
     *out = code_distance(probe->code, p, probe->numbers, &fault);
-    bool fine = fault.line == 0 || (fault.infinite && *out < CODE_FAR);
+    const bool fine = fault.line == 0 || (fault.infinite && *out < CODE_FAR);
     return fine || refuse(&fault, p, err);
 }
 
 /* Between two points `between` apart. What is too far is no measure of anything. */
 static void take_slope(struct code_probe *probe, double a, double b, double between)
 {
-    double slope = fabs(a - b) / between;
+    const double slope = fabs(a - b) / between;
 
     if (fmax(fabs(a), fabs(b)) < CODE_FAR && slope > probe->greatest) {
         probe->greatest = slope;
@@ -81,19 +81,19 @@ static bool ask_around(struct code_probe *probe, const double p[3], int index, s
     for (int i = 0; i < 3; i++) {
         const double axis[3] = {i == 0, i == 1, i == 2};
         along(p, axis, h, q);
-        bool ok = ask(probe, q, &a, err);
+        const bool ok = ask(probe, q, &a, err);
         along(p, axis, -h, q);
         if (!ok || !ask(probe, q, &b, err)) {
             return false;
         }
         gradient[i] = a - b;
     }
-    double length = hypot(hypot(gradient[0], gradient[1]), gradient[2]);
+    const double length = hypot(hypot(gradient[0], gradient[1]), gradient[2]);
     for (int i = 0; i < 3; i++) {
         direction[i] = length > 0 ? gradient[i] / length : 0;
     }
     along(p, direction, h, q);
-    bool ok = ask(probe, q, &a, err);
+    const bool ok = ask(probe, q, &a, err);
     along(p, direction, -h, q);
     if (!ok || !ask(probe, q, &b, err)) {
         return false;
@@ -134,7 +134,7 @@ static bool ask_shade(const struct code_probe *probe, const double p[3], int ind
     memcpy(at.object_position, p, sizeof at.object_position);
     direction_of(index, at.world_normal);
     direction_of(index + probe->points, at.ray_direction);
-    bool none = shade_at(probe->code, &at, probe->numbers, &fault);
+    const bool none = shade_at(probe->code, &at, probe->numbers, &fault);
     return fault.line == 0 || (fault.infinite && !none) || refuse(&fault, p, err);
 }
 

@@ -40,7 +40,7 @@ void *tree_alloc(struct tree *tree, size_t size)
 
     size = (size + align - 1) / align * align;
     if (!chunk || chunk->size - chunk->used < size) {
-        size_t bytes = size > CHUNK_BYTES ? size : CHUNK_BYTES;
+        const size_t bytes = size > CHUNK_BYTES ? size : CHUNK_BYTES;
         chunk = memory_alloc(1, sizeof *chunk + bytes);
         chunk->size = bytes;
         chunk->next = tree->chunks;

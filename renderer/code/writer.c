@@ -80,7 +80,7 @@ static void write_for(struct code_writer *w, const struct stmt *stmt)
 {
     const struct variable *variable = stmt->variable;
     char name[TYPE_NAME_BYTES];
-    int n = variable->number;
+    const int n = variable->number;
 
     type_name(variable->type, name);
     begin_line(w, stmt->at);
@@ -243,7 +243,7 @@ static void write_inputs(struct code_writer *w)
 /* The argument as what the code takes it for. */
 static void write_input(struct code_writer *w, const struct variable *v)
 {
-    int n = v->number;
+    const int n = v->number;
     char name[TYPE_NAME_BYTES];
 
     PUT(w, "%s_d%d = ", w->name, n);
@@ -278,7 +278,7 @@ static void write_data(struct code_writer *w)
 static void write_entry(struct code_writer *w, enum code_use use)
 {
     const struct tree *tree = w->tree;
-    bool shade = use == CODE_SHADE, surface = shade && type_is_surface(tree->entry->result);
+    const bool shade = use == CODE_SHADE, surface = shade && type_is_surface(tree->entry->result);
 
     PUT(w, "%s %s(%s",
         surface ? "CodeSurface"
@@ -301,7 +301,7 @@ static void write_entry(struct code_writer *w, enum code_use use)
     if (tree->shading_used) {
         PUT(w, "%s_s = s;\n", w->name);
     }
-    int entry = tree->entry->number;
+    const int entry = tree->entry->number;
     if (surface) {
         PUT(w, "return code_surface(%s_f%d());\n}\n", w->name, entry);
     } else if (!shade) {

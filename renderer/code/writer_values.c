@@ -15,7 +15,7 @@ static void write_float(struct code_writer *w, double number)
     char text[40];
 
     snprintf(text, sizeof text, "%.9g", number);
-    bool whole = strspn(text, "-0123456789") == strlen(text);
+    const bool whole = strspn(text, "-0123456789") == strlen(text);
     PUT(w, number < 0 || signbit(number) ? "(%s%s)" : "%s%s", text, whole ? ".0" : "");
 }
 
@@ -58,7 +58,7 @@ static void write_members(struct code_writer *w, int first, const double *value)
 void writer_constant(struct code_writer *w, struct type type, const double *value)
 {
     char name[TYPE_NAME_BYTES];
-    int count = type_components(type);
+    const int count = type_components(type);
 
     if (type_is_surface(type)) {
         PUT(w, "CodeSurface(");
@@ -72,7 +72,7 @@ void writer_constant(struct code_writer *w, struct type type, const double *valu
     }
     PUT(w, "%s(", type_name(type, name));
     struct type element = type.count > 0 ? type_element(type) : type_vector(type.base, 1);
-    int size = type_components(element);
+    const int size = type_components(element);
     for (int i = 0; i < count; i += size) {
         PUT(w, i > 0 ? ", " : "");
         writer_constant(w, element, value + i);
@@ -84,14 +84,14 @@ void writer_constant(struct code_writer *w, struct type type, const double *valu
 
 void writer_variable(struct code_writer *w, const struct variable *variable)
 {
-    bool declared = variable->storage == STORAGE_DECLARED;
+    const bool declared = variable->storage == STORAGE_DECLARED;
 
     PUT(w, "%s_%c%d", w->name, declared ? 'd' : 'v', variable->number);
 }
 
 static void write_value(struct code_writer *w, const struct expr *expr)
 {
-    bool named = expr->kind == EXPR_VARIABLE && type_components(expr->type) > 1;
+    const bool named = expr->kind == EXPR_VARIABLE && type_components(expr->type) > 1;
 
     if (named) {
         writer_variable(w, expr->variable);
@@ -117,7 +117,7 @@ static void write_arguments(struct code_writer *w, const struct expr *args)
 /* What is divided by, if it may be 0. */
 static void write_divisor(struct code_writer *w, const struct expr *expr)
 {
-    bool guarded = !expr->value && !type_is_matrix(expr->type);
+    const bool guarded = !expr->value && !type_is_matrix(expr->type);
 
     PUT(w, guarded ? "code_nonzero(" : "");
     writer_expr(w, expr);
@@ -128,8 +128,8 @@ static void write_divisor(struct code_writer *w, const struct expr *expr)
 static bool write_guarded(struct code_writer *w, const struct expr *expr)
 {
     const char *mask = expr->b->type.base == BASE_UINT ? "31u" : "31";
-    bool shifts = expr->op == OP_SHIFT_LEFT || expr->op == OP_SHIFT_RIGHT;
-    bool divides = expr->op == OP_DIVIDE || expr->op == OP_REMAINDER;
+    const bool shifts = expr->op == OP_SHIFT_LEFT || expr->op == OP_SHIFT_RIGHT;
+    const bool divides = expr->op == OP_DIVIDE || expr->op == OP_REMAINDER;
 
     if (!type_is_integer(expr->type) || !(shifts || divides)) {
         return false;
@@ -160,9 +160,9 @@ static void write_joined(struct code_writer *w, const struct expr *expr, const c
 
 static void write_assign(struct code_writer *w, const struct expr *expr)
 {
-    bool whole = type_is_integer(expr->type);
-    bool guarded = whole && (expr->op == OP_DIVIDE || expr->op == OP_REMAINDER ||
-                             expr->op == OP_SHIFT_LEFT || expr->op == OP_SHIFT_RIGHT);
+    const bool whole = type_is_integer(expr->type);
+    const bool guarded = whole && (expr->op == OP_DIVIDE || expr->op == OP_REMAINDER ||
+                                   expr->op == OP_SHIFT_LEFT || expr->op == OP_SHIFT_RIGHT);
     char op[4];
 
     if (guarded) { /* the place has no effects of its own, so it can stand twice */
@@ -183,7 +183,7 @@ static void write_swizzle(struct code_writer *w, const struct expr *expr)
     char name[TYPE_NAME_BYTES];
 
     if (type_is_scalar(expr->a->type)) {
-        bool spread = expr->swizzle_count > 1;
+        const bool spread = expr->swizzle_count > 1;
         PUT(w, "%s(", spread ? type_name(expr->type, name) : "");
         writer_expr(w, expr->a);
         PUT(w, ")");
@@ -214,11 +214,11 @@ static void write_index(struct code_writer *w, const struct expr *expr)
 static void write_construct(struct code_writer *w, const struct expr *expr)
 {
     char name[TYPE_NAME_BYTES];
-    bool whole = type_is_integer(expr->type);
+    const bool whole = type_is_integer(expr->type);
 
     PUT(w, "%s(", writer_type(expr->type, name));
     for (const struct expr *arg = expr->args; arg; arg = arg->next) {
-        bool guarded = whole && arg->type.base == BASE_FLOAT;
+        const bool guarded = whole && arg->type.base == BASE_FLOAT;
         PUT(w, "%s", !guarded ? "" : expr->type.base == BASE_UINT ? "code_uint(" : "code_int(");
         writer_expr(w, arg);
         PUT(w, "%s%s", guarded ? ")" : "", arg->next ? ", " : "");

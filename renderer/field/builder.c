@@ -22,7 +22,7 @@ static void *reserve(void *block, size_t *capacity, size_t needed, size_t size)
 uint32_t builder_add_vec4s(struct builder *b, size_t count)
 {
     struct field *field = b->field;
-    size_t first = field->vec4_count;
+    const size_t first = field->vec4_count;
 
     field->vec4_count += count;
     if (b->again) {
@@ -36,7 +36,7 @@ uint32_t builder_add_vec4s(struct builder *b, size_t count)
 
 uint32_t builder_add_arguments(struct builder *b, size_t count)
 {
-    size_t first = b->argument_count;
+    const size_t first = b->argument_count;
 
     b->argument_count += count;
     if (b->again) {
@@ -177,7 +177,7 @@ void builder_put(struct builder *b, uint32_t vec4, int component, uint32_t argum
 static void scale_numbers(const struct param *params, double scale, double *numbers)
 {
     for (size_t i = 0, at = 0; params[i].name; i++) {
-        int components = param_components(params[i].type);
+        const int components = param_components(params[i].type);
         for (int c = 0; c < components; c++) {
             numbers[at++] *= params[i].unit == UNIT_LENGTH ? scale : 1;
         }
@@ -244,8 +244,8 @@ void builder_place_points(struct builder *b)
 {
     for (size_t i = 0; i < b->points_count; i++) {
         const struct builder_points *points = &b->points[i];
-        size_t count = (size_t)b->field->arguments[points->argument];
-        uint32_t first = builder_add_vec4s(b, (count + 1) / 2);
+        const size_t count = (size_t)b->field->arguments[points->argument];
+        const uint32_t first = builder_add_vec4s(b, (count + 1) / 2);
         float *place = b->field->params + 4 * (size_t)points->vec4 + points->component;
         place[0] = (float)first;
         place[1] = (float)count;
@@ -267,7 +267,7 @@ void builder_put_params(struct builder *b, const struct param *params, const str
         b->failed = true;
         return;
     }
-    int count = sdf_numbers(params, values, numbers);
+    const int count = sdf_numbers(params, values, numbers);
     if (sdf && sdf->scale) {
         sdf->scale(numbers, scale);
     } else {
@@ -281,8 +281,8 @@ void builder_put_params(struct builder *b, const struct param *params, const str
         arguments[i] = (float)numbers[i];
     }
     for (size_t i = 0; params[i].name; i++) {
-        enum param_type type = params[i].type;
-        uint32_t at = vec4 + (uint32_t)places[i].vec4;
+        const enum param_type type = params[i].type;
+        const uint32_t at = vec4 + (uint32_t)places[i].vec4;
         if (type == PARAM_POINTS) {
             place_points(b, at, places[i].component, arguments + (from - numbers));
             from += 1 + 2 * (int)*from;

@@ -24,7 +24,7 @@ int field_layout(const struct param *params, int used, struct param_slot out[SDF
         taken[i / 4]++;
     }
     for (size_t i = 0; params[i].name; i++) {
-        int components = stored_components(params[i].type);
+        const int components = stored_components(params[i].type);
         int at = 0;
         while (taken[at] + components > 4) {
             at++;
@@ -78,7 +78,7 @@ void field_unref(struct field *field)
 
 static int compare_leaf(const void *key, const void *item)
 {
-    uint32_t a = *(const uint32_t *)key, b = ((const struct field_leaf *)item)->number;
+    const uint32_t a = *(const uint32_t *)key, b = ((const struct field_leaf *)item)->number;
 
     return (a > b) - (a < b);
 }

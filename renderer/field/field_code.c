@@ -225,7 +225,7 @@ static void call_code(const struct scene *scene, const struct node *node, struct
 {
     const struct resource *primitive = node_primitive(scene, node);
     const struct record *source = primitive ? &primitive->record : &node->params;
-    size_t first = record_type_count(&node->type->record);
+    const size_t first = record_type_count(&node->type->record);
     static const struct param nothing = {.name = NULL};
 
     *out = (struct field_call){.text = record_text(source, "code"),
@@ -257,7 +257,7 @@ bool field_call_of(const struct scene *scene, const struct node *node, struct fi
 int field_shader_numbers(const struct field *field, size_t slot, double *out_n)
 {
     const float *block = field->params + 4 * (field->material_base + slot * field->material_stride);
-    int shader = (int)block[FIELD_SHADER] - 1;
+    const int shader = (int)block[FIELD_SHADER] - 1;
     int count = 0;
 
     for (int i = 0; shader >= 0 && i < field->shaders[shader].place_count; i++) {

@@ -97,7 +97,7 @@ static void add_floor(struct builder *b, struct result *whole)
 
 static int compare_members(const void *a, const void *b)
 {
-    uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
 
     return (x > y) - (x < y);
 }

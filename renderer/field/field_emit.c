@@ -95,7 +95,7 @@ static void add_combine(struct builder *b, struct field_instruction combine, str
 {
     combine.side = side_of(&fold->whole, child);
     if (needs_sides(b, &combine)) {
-        size_t component = fold->side_count++ % 4;
+        const size_t component = fold->side_count++ % 4;
         if (component == 0) {
             fold->side_vec4 = builder_add_vec4s(b, 1);
         }
@@ -121,8 +121,8 @@ static void fold_child(struct builder *b, struct fold *fold,
                        const struct field_instruction *combine, const struct result *child,
                        bool leads)
 {
-    enum sdf_rule rule = combine->sdf->rule;
-    bool vital = leads || (rule == SDF_ALL && !child->hidden);
+    const enum sdf_rule rule = combine->sdf->rule;
+    const bool vital = leads || (rule == SDF_ALL && !child->hidden);
 
     fold->count += !child->apart && (leads || !child->hidden);
     fold->dead = fold->dead || (vital && !child->solid);
@@ -145,7 +145,7 @@ static struct fold emit_folded(struct builder *b, const struct node *node,
                                struct field_instruction combine, const struct node_frame *frame,
                                uint16_t slot)
 {
-    enum sdf_rule rule = combine.sdf->rule;
+    const enum sdf_rule rule = combine.sdf->rule;
     struct fold fold = {.count = 0};
     bool cutting = b->cutting;
 
@@ -215,8 +215,8 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
                                  const struct node_frame *frame, uint16_t slot)
 {
     const struct sdf_domain *domain = sdf->domain;
-    size_t own_count = 4 * (size_t)domain->vec4s;
-    uint32_t block = builder_add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)domain->vec4s);
+    const size_t own_count = 4 * (size_t)domain->vec4s;
+    const uint32_t block = builder_add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)domain->vec4s);
     uint32_t arguments = builder_add_arguments(b, 12 + own_count);
 
     builder_put(b, block, 0, arguments, 12, frame->matrix);
@@ -239,8 +239,8 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
     }
 
     struct node_frame inside = node_frame_create(inner, frame->scale, frame->material);
-    uint64_t trips_before = b->trips;
-    bool all_again = b->whole;
+    const uint64_t trips_before = b->trips;
+    const bool all_again = b->whole;
     b->trips = 0;
     b->whole = sites_set_scale(b, frame->scale) && all_again;
     struct result whole =
@@ -280,7 +280,7 @@ static struct result emit_model(struct builder *b, const struct node *node,
     if (!model) {
         return (struct result){0};
     }
-    bool outermost = b->instance == 0;
+    const bool outermost = b->instance == 0;
     if (outermost) {
         b->instance = number;
         b->instance_node = node;
@@ -336,7 +336,7 @@ static struct result emit_joining(struct builder *b, const struct node *node,
                                   const struct node_frame *frame, uint16_t slot,
                                   enum field_before before, uint32_t number)
 {
-    bool joined = before != FIELD_NOTHING;
+    const bool joined = before != FIELD_NOTHING;
     struct result own = {.hidden = false};
 
     switch (node->type->kind) {
@@ -386,8 +386,8 @@ static void guard(struct builder *b, struct builder_mark mark, enum field_before
     struct bounds placed = bounds_transform(box, outer->back, 1);
     double numbers[8] = {0};
     for (int i = 0; i < 3; i++) {
-        double half = (placed.high[i] - placed.low[i]) / 2;
-        bool ends = half < FIELD_UNCUT;
+        const double half = (placed.high[i] - placed.low[i]) / 2;
+        const bool ends = half < FIELD_UNCUT;
         numbers[i] = ends ? placed.low[i] + half : 0;
         numbers[4 + i] = ends ? half : FIELD_UNCUT;
     }
@@ -452,7 +452,7 @@ static struct result emit_node(struct builder *b, const struct node *node,
                                const struct node_frame *frame, uint16_t slot,
                                enum field_before before, uint32_t number)
 {
-    bool joined = before != FIELD_NOTHING;
+    const bool joined = before != FIELD_NOTHING;
 
     if (continues(b, node)) {
         return emit_joining(b, node, frame, slot, before, number);
@@ -470,7 +470,7 @@ static struct result emit_entered(struct builder *b, const struct node *node,
                                   const struct node_frame *outer, uint16_t slot,
                                   enum field_before before, struct result result)
 {
-    uint32_t number = b->instance ? b->instance : ++b->index;
+    const uint32_t number = b->instance ? b->instance : ++b->index;
     double from[12], ratio;
     struct node_frame frame = node_frame_enter(outer, node, from, &ratio);
     const char *material = record_text(&node->common, "material");
@@ -551,13 +551,13 @@ static bool is_passed_over(struct builder *b, const struct node *node,
 struct result field_emit(struct builder *b, const struct node *node, const struct node_frame *outer,
                          uint16_t slot, enum field_before before)
 {
-    bool has_part = b->again && sites_has(b, node);
+    const bool has_part = b->again && sites_has(b, node);
 
     if (has_part && is_passed_over(b, node, outer)) {
         return sites_take(b);
     }
     bool hidden = record_number(&node->common, "visible") == 0;
-    uint64_t member = b->again ? 0 : member_hash(b, node);
+    const uint64_t member = b->again ? 0 : member_hash(b, node);
     if (b->failed || (b->again ? !has_part : is_left_out(b, hidden, member))) {
         skip(b, node);
         sites_leave_out(b);
@@ -565,8 +565,8 @@ struct result field_emit(struct builder *b, const struct node *node, const struc
     }
     bool hiding = b->hiding, whole = b->whole;
     builder_add_member(b, member);
-    uint32_t site = sites_open(b, node);
-    enum isolated_part part = part_of(b, node);
+    const uint32_t site = sites_open(b, node);
+    const enum isolated_part part = part_of(b, node);
     bool within = b->within;
     b->hiding = hiding || hidden;
     b->within = part != ISOLATED_AROUND;

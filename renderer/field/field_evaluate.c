@@ -114,7 +114,7 @@ static void add_material_share(struct material_share shares[MIXED_MAX],
 
 static void mix_mixes(struct material_mix *a, const struct material_mix *b, double share)
 {
-    double wa = a->weight * (1 - share), wb = b->weight * share;
+    const double wa = a->weight * (1 - share), wb = b->weight * share;
 
     a->leaf = wb > wa ? b->leaf : a->leaf;
     a->weight = fmax(wa, wb);
@@ -209,13 +209,13 @@ static double box_distance(const double p[3], const double *n)
 static size_t run_guard(const struct machine *m, const struct field_instruction *in,
                         const double *n, size_t next)
 {
-    double distance = m->mixes ? 0 : box_distance(m->p[in->point], n);
+    const double distance = m->mixes ? 0 : box_distance(m->p[in->point], n);
 
     if (distance == 0 || distance < m->d[in->a]) {
         return next;
     }
     for (int depth = 1; depth > 0; next++) {
-        enum field_op op = m->field->instructions[next].op;
+        const enum field_op op = m->field->instructions[next].op;
         depth += (op == FIELD_GUARD) - (op == FIELD_GUARD_END);
     }
     return next;
@@ -223,7 +223,7 @@ static size_t run_guard(const struct machine *m, const struct field_instruction 
 
 static void run_guard_end(struct machine *m, const struct field_instruction *in, const double *n)
 {
-    double distance = m->mixes ? 0 : box_distance(m->p[in->point], n);
+    const double distance = m->mixes ? 0 : box_distance(m->p[in->point], n);
 
     if (distance > 0) {
         m->d[in->a] = fmax(m->d[in->a], distance);
@@ -396,12 +396,12 @@ void field_normal(const struct field *field, const double p[3], double h, double
         for (int j = 0; j < 3; j++) {
             q[j] = p[j] + h * corners[i][j];
         }
-        double d = field_distance(field, q);
+        const double d = field_distance(field, q);
         for (int j = 0; j < 3; j++) {
             sum[j] += d * corners[i][j];
         }
     }
-    double length = sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+    const double length = sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
     for (int j = 0; j < 3; j++) {
         out[j] = length > 0 ? sum[j] / length : j == 1;
     }

@@ -14,8 +14,8 @@ static void node_matrices(const struct node *node, double out_to[12], double out
     const double *t = record_vector(&node->transform, "translation");
     const double *r = record_vector(&node->transform, "rotation");
     const double *s = record_vector(&node->transform, "scale");
-    double cx = cos(r[0]), sx = sin(r[0]), cy = cos(r[1]), sy = sin(r[1]), cz = cos(r[2]),
-           sz = sin(r[2]);
+    const double cx = cos(r[0]), sx = sin(r[0]), cy = cos(r[1]), sy = sin(r[1]), cz = cos(r[2]),
+                 sz = sin(r[2]);
 
     /* Rz * Ry * Rx */
     double rotation[3][3] = {{cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx},

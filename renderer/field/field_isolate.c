@@ -23,7 +23,7 @@ static size_t find(const struct isolation *isolation, const struct node *node)
     size_t low = 0, high = isolation->count;
 
     while (low < high) {
-        size_t middle = low + (high - low) / 2;
+        const size_t middle = low + (high - low) / 2;
         if ((uintptr_t)isolation->entries[middle].node < (uintptr_t)node) {
             low = middle + 1;
         } else {
@@ -35,7 +35,7 @@ static size_t find(const struct isolation *isolation, const struct node *node)
 
 static struct entry *at(const struct isolation *isolation, const struct node *node)
 {
-    size_t index = find(isolation, node);
+    const size_t index = find(isolation, node);
 
     return index < isolation->count && isolation->entries[index].node == node
                ? &isolation->entries[index]
@@ -48,7 +48,7 @@ static bool add(struct isolation *isolation, const struct node *node)
     if (at(isolation, node)) {
         return false;
     }
-    size_t index = find(isolation, node);
+    const size_t index = find(isolation, node);
     if (isolation->count == isolation->capacity) {
         isolation->capacity = 2 * isolation->capacity + 16;
         isolation->entries =

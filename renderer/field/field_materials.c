@@ -67,10 +67,10 @@ static void put_vector(float *to, const struct record *record, const char *name)
 static void put_inside(float *to, const struct record *record)
 {
     const double *left = record_vector(record, "attenuation_color");
-    double way = record_number(record, "attenuation_distance");
+    const double way = record_number(record, "attenuation_distance");
 
     for (int i = 0; i < 3; i++) {
-        double absorption = log(1 / fmax(left[i], LEFT_LEAST)) / way;
+        const double absorption = log(1 / fmax(left[i], LEFT_LEAST)) / way;
         to[FIELD_ABSORPTION + i] = (float)fmin(absorption, ABSORPTION_MAX);
     }
     to[FIELD_TRANSMISSION] = (float)transmission_of(record);
@@ -98,11 +98,11 @@ static void put_phong(float *to, const struct record *record)
 static void put_standard(float *to, const struct record *record)
 {
     const double *base = record_vector(record, "base_color");
-    double metallic = record_number(record, "metallic"), ior = record_number(record, "ior");
+    const double metallic = record_number(record, "metallic"), ior = record_number(record, "ior");
     double reflected = (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)), most = 0;
 
     for (int i = 0; i < 3; i++) {
-        double specular = reflected + (base[i] - reflected) * metallic;
+        const double specular = reflected + (base[i] - reflected) * metallic;
         to[FIELD_DIFFUSE + i] = (float)(base[i] * (1 - metallic));
         to[FIELD_SPECULAR + i] = (float)specular;
         most = fmax(most, specular);
@@ -181,7 +181,7 @@ void field_put_surface(double to[FIELD_MATERIAL_NUMBERS], const struct code_surf
     }
     double most = 0;
     for (int i = 0; i < 3; i++) {
-        double reflected = f0 + (surface->color[i] - f0) * surface->metallic;
+        const double reflected = f0 + (surface->color[i] - f0) * surface->metallic;
         to[FIELD_DIFFUSE + i] = surface->color[i] * (1 - surface->metallic);
         to[FIELD_SPECULAR + i] = reflected;
         to[FIELD_EMISSION + i] = surface->emission[i];
@@ -260,7 +260,7 @@ void field_add_material_shaders(struct builder *b)
             add_material_shader(b, materials->items[i], material_shader);
         }
         if (material_shader->index >= 0) {
-            size_t vec4s = (size_t)b->field->shaders[material_shader->index].vec4s;
+            const size_t vec4s = (size_t)b->field->shaders[material_shader->index].vec4s;
             most = vec4s > most ? vec4s : most;
         }
     }
@@ -273,7 +273,7 @@ static void put_painter(struct builder *b, uint32_t vec4, const struct record *r
 {
     const struct field_code *shader = &b->field->shaders[material_shader->index];
     float *to = b->field->params + 4 * (size_t)vec4;
-    uint32_t arguments = builder_add_arguments(b, SDF_NUMBERS_MAX);
+    const uint32_t arguments = builder_add_arguments(b, SDF_NUMBERS_MAX);
 
     to[FIELD_SHADER] = (float)(material_shader->index + 1);
     to[FIELD_UNLIT] = material_shader->unlit;

@@ -29,7 +29,7 @@ uint32_t field_choices(const struct record *params)
 static int prepared_numbers(const struct node *node, const struct sdf *sdf,
                             double out[SDF_NUMBERS_MAX])
 {
-    int count = sdf_numbers(node->params.type->params, node->params.values, out);
+    const int count = sdf_numbers(node->params.type->params, node->params.values, out);
 
     if (sdf->prepare) {
         sdf->prepare(out);
@@ -53,7 +53,7 @@ static void add_leaf(struct builder *b, uint32_t number, const struct node *node
 static void fill_head(const struct builder *b, const struct node_frame *frame, double slope,
                       uint32_t number, double out_head[FIELD_HEAD_NUMBERS])
 {
-    bool transmissive = field_material_transmissive(b, frame->material);
+    const bool transmissive = field_material_transmissive(b, frame->material);
     const double cuts = b->cuts_transmissive ? FIELD_CUTS_TRANSMISSIVE : FIELD_CUTS_OPAQUE;
 
     out_head[FIELD_SCALE] = frame->scale / slope;
@@ -68,11 +68,11 @@ static void emit_shape(struct builder *b, const struct node *node, const struct 
 {
     struct param_slot places[SDF_PARAMS_MAX];
     double numbers[SDF_NUMBERS_MAX];
-    int vec4s = field_layout(node->params.type->params, FIELD_HEAD_NUMBERS, places);
-    int count = prepared_numbers(node, sdf, numbers);
-    uint32_t block = builder_add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)vec4s);
+    const int vec4s = field_layout(node->params.type->params, FIELD_HEAD_NUMBERS, places);
+    const int count = prepared_numbers(node, sdf, numbers);
+    const uint32_t block = builder_add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)vec4s);
     uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + (size_t)count);
-    double slope = sdf->lipschitz ? sdf->lipschitz(numbers) : node->type->lipschitz;
+    const double slope = sdf->lipschitz ? sdf->lipschitz(numbers) : node->type->lipschitz;
     double head[FIELD_HEAD_NUMBERS];
 
     fill_head(b, frame, slope, number, head);
@@ -229,9 +229,9 @@ static struct result emit_code(struct builder *b, const struct node *node,
     double numbers[SDF_NUMBERS_MAX], cut[FIELD_CUT_NUMBERS], head[FIELD_HEAD_NUMBERS];
     const struct bounds box = fill_cut(call, frame->scale, cut);
     fill_head(b, frame, call->lipschitz, number, head);
-    int count = sdf_numbers(call->params, call->values, numbers);
-    size_t heads = FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S;
-    uint32_t block = builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + (size_t)code->vec4s);
+    const int count = sdf_numbers(call->params, call->values, numbers);
+    const size_t heads = FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S;
+    const uint32_t block = builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + (size_t)code->vec4s);
     uint32_t arguments =
         builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + FIELD_CUT_NUMBERS + (size_t)count);
     builder_put(b, block, 0, arguments, 12, frame->matrix);

@@ -47,7 +47,7 @@ static void write_places(const struct shader_writer *w, const struct field_code 
 {
     for (int i = 0; i < code->place_count; i++) {
         const struct param_slot *place = &code->places[i];
-        uint32_t vec4 = first + (uint32_t)place->vec4;
+        const uint32_t vec4 = first + (uint32_t)place->vec4;
         fprintf(w->out, ", %s%u).%.*s", base, vec4, place->count, "xyzw" + place->component);
     }
 }
@@ -87,7 +87,7 @@ static void write_code_point(const struct shader_writer *w, const struct field_i
 /* Its answer, cut by its box; without a field that is d. */
 static void write_code(const struct shader_writer *w, const struct field_instruction *in)
 {
-    uint32_t head = in->params + FIELD_MATRIX_VEC4S, cut = head + FIELD_HEAD_VEC4S;
+    const uint32_t head = in->params + FIELD_MATRIX_VEC4S, cut = head + FIELD_HEAD_VEC4S;
 
     fprintf(w->out, "unless_away(cut(");
     if (w->field->codes) {
@@ -104,7 +104,7 @@ static void write_code(const struct shader_writer *w, const struct field_instruc
 
 static void write_shape(struct shader_writer *w, const struct field_instruction *in)
 {
-    uint32_t head = in->params + FIELD_MATRIX_VEC4S;
+    const uint32_t head = in->params + FIELD_MATRIX_VEC4S;
 
     if (w->surface && w->field->shader_count > 0) {
         fprintf(w->out, "o%u = ", in->a);
@@ -286,7 +286,7 @@ static void write_loop_end(struct shader_writer *w, const struct field_instructi
     if (w->surface) {
         const char *kind = w->mixed[in->b] ? "m" : "h";
         const char *distance = w->mixed[in->b] ? "d" : "x";
-        bool objects = !w->mixed[in->b] && w->field->shader_count > 0;
+        const bool objects = !w->mixed[in->b] && w->field->shader_count > 0;
         fprintf(w->out, "if (%s%u.%s < %s%u.%s) {\n%s%u = %s%u;\n", kind, in->b, distance, kind,
                 in->a, distance, kind, in->a, kind, in->b);
         fprintf(w->out, objects ? "o%u = o%u;\n}\n" : "}\n", in->a, in->b);
@@ -394,7 +394,7 @@ static void write_apply_shader(const struct shader_writer *w)
             "int shader = int(values.emission.w);\nbool unlit = values.ambient.w > 0.5;\n",
             field->material_base, field->material_stride);
     for (size_t i = 0; i < field->shader_count; i++) {
-        bool whole = code_gives_surface(field->shaders[i].code);
+        const bool whole = code_gives_surface(field->shaders[i].code);
         fprintf(w->out, "if (shader == %zu) {\nmaterial_set_%s(values, shade_%zu(at", i + 1,
                 whole ? "surface" : "color", i);
         write_places(w, &field->shaders[i], "P_ANY(i + ", FIELD_MATERIAL_VEC4S);

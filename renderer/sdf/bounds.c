@@ -76,7 +76,7 @@ struct bounds bounds_transform(const struct bounds *box, const double matrix[12]
     for (int i = 0; i < 3; i++) {
         out.low[i] = out.high[i] = matrix[4 * i + 3];
         for (int j = 0; j < 3; j++) {
-            double m = matrix[4 * i + j];
+            const double m = matrix[4 * i + j];
             if (m != 0) { /* 0 * INFINITY is no number */
                 out.low[i] += m * (m > 0 ? box->low[j] : box->high[j]);
                 out.high[i] += m * (m > 0 ? box->high[j] : box->low[j]);
@@ -106,7 +106,7 @@ double bounds_sphere(const struct bounds *box, double out_centre[3])
     double square = 0;
 
     for (int i = 0; i < 3; i++) {
-        double half = (box->high[i] - box->low[i]) / 2;
+        const double half = (box->high[i] - box->low[i]) / 2;
         out_centre[i] = isfinite(half) ? box->low[i] + half : 0;
         square += half * half;
     }

@@ -39,7 +39,7 @@ static double cross2(double ax, double ay, double bx, double by)
 static double to_segment(const double *p, const double *a, const double *b)
 {
     double x = p[0] - a[0], y = p[1] - a[1], ex = b[0] - a[0], ey = b[1] - a[1];
-    double t = clamp((x * ex + y * ey) / fmax(ex * ex + ey * ey, 1e-30), 0, 1);
+    const double t = clamp((x * ex + y * ey) / fmax(ex * ex + ey * ey, 1e-30), 0, 1);
 
     x -= t * ex;
     y -= t * ey;
@@ -82,12 +82,12 @@ static double round_rectangle(const double p[3], const double *n)
 static double triangle2(const double p[3], const double *n)
 {
     const double *corners[3] = {n, n + 2, n + 4};
-    double turn = cross2(n[2] - n[0], n[3] - n[1], n[4] - n[0], n[5] - n[1]);
+    const double turn = cross2(n[2] - n[0], n[3] - n[1], n[4] - n[0], n[5] - n[1]);
     double nearest = INFINITY, side = INFINITY;
 
     for (int i = 0; i < 3; i++) {
         const double *a = corners[i], *b = corners[(i + 1) % 3];
-        double left = cross2(b[0] - a[0], b[1] - a[1], p[0] - a[0], p[1] - a[1]);
+        const double left = cross2(b[0] - a[0], b[1] - a[1], p[0] - a[0], p[1] - a[1]);
         nearest = fmin(nearest, to_segment(p, a, b));
         side = fmin(side, turn > 0 ? left : turn < 0 ? -left : 0);
     }
@@ -103,18 +103,18 @@ static struct bounds triangle2_box(const double *n)
  * with the edge between them. */
 static double star(const double p[3], const double *n)
 {
-    double turn = 2 * PI / n[1];
-    double angle = turn * round(atan2(p[0], p[1]) / turn), c = cos(angle), s = sin(angle);
+    const double turn = 2 * PI / n[1];
+    const double angle = turn * round(atan2(p[0], p[1]) / turn), c = cos(angle), s = sin(angle);
     double q[2] = {fabs(c * p[0] - s * p[1]), s * p[0] + c * p[1]};
     double tip[2] = {0, n[0]}, dent[2] = {n[2] * sin(turn / 2), n[2] * cos(turn / 2)};
-    double d = sqrt(to_segment(q, tip, dent));
+    const double d = sqrt(to_segment(q, tip, dent));
 
     return cross2(dent[0], dent[1] - tip[1], q[0], q[1] - tip[1]) < 0 ? -d : d;
 }
 
 static struct bounds star_box(const double *n)
 {
-    double reach = fmax(n[0], n[2]);
+    const double reach = fmax(n[0], n[2]);
 
     return centred_box(reach, reach);
 }
@@ -130,15 +130,15 @@ static double regular_polygon(const double p[3], const double *n)
  * odd number of sides. */
 static double polygon(const double p[3], const double *n)
 {
-    int count = (int)n[0];
+    const int count = (int)n[0];
     const double *a = n + 1 + 2 * (count - 1);
     double nearest = INFINITY;
     bool inside = false;
 
     for (int i = 0; i < count; i++) {
         const double *b = n + 1 + 2 * i;
-        double left = cross2(b[0] - a[0], b[1] - a[1], p[0] - a[0], p[1] - a[1]);
-        bool level = (a[1] > p[1]) != (b[1] > p[1]);
+        const double left = cross2(b[0] - a[0], b[1] - a[1], p[0] - a[0], p[1] - a[1]);
+        const bool level = (a[1] > p[1]) != (b[1] > p[1]);
         inside = inside != (level && (left > 0) == (b[1] > a[1]));
         nearest = fmin(nearest, to_segment(p, a, b));
         a = b;
@@ -178,7 +178,7 @@ static struct bounds ring_box(const double *n)
 /* arc: radius and angle become the end of the line on the side of +X. */
 static void arc_prepare(double *n)
 {
-    double radius = n[0], angle = n[1];
+    const double radius = n[0], angle = n[1];
 
     n[0] = fmax(radius * sin(angle), 1e-12 * radius); /* never 0: the axis has a side */
     n[1] = radius * cos(angle);
@@ -189,9 +189,9 @@ static void arc_prepare(double *n)
  * axis. A hole as small as the rounding of numbers is none. */
 static double arc_depth(double x, double y, const double *n, bool beyond)
 {
-    double half = n[2] / 2, radius = hypot(n[0], n[1]), r = hypot(x, y), pore = 1e-6 * radius;
-    double end = hypot(x - n[0], y - n[1]), out = half / fmax(end, 1e-30);
-    double qx = n[0] + (x - n[0]) * out, qy = n[1] + (y - n[1]) * out;
+    const double half = n[2] / 2, radius = hypot(n[0], n[1]), r = hypot(x, y), pore = 1e-6 * radius;
+    const double end = hypot(x - n[0], y - n[1]), out = half / fmax(end, 1e-30);
+    const double qx = n[0] + (x - n[0]) * out, qy = n[1] + (y - n[1]) * out;
     double nearest = beyond ? INFINITY : radius + half - r;
 
     if (!beyond && half < radius - pore) {
@@ -200,9 +200,9 @@ static double arc_depth(double x, double y, const double *n, bool beyond)
     if (qx >= 0 && cross2(qx, qy, n[0], n[1]) >= 0) {
         nearest = fmin(nearest, half - end);
     }
-    double root = sqrt(fmax((half - n[0]) * (half + n[0]), 0));
+    const double root = sqrt(fmax((half - n[0]) * (half + n[0]), 0));
     for (int i = 0; i < 2 && half >= n[0]; i++) {
-        double meet = n[1] + (i ? root : -root);
+        const double meet = n[1] + (i ? root : -root);
         nearest = meet < (i ? -pore : pore) ? fmin(nearest, hypot(x, y - meet)) : nearest;
     }
     return nearest;
@@ -210,18 +210,18 @@ static double arc_depth(double x, double y, const double *n, bool beyond)
 
 double flat_arc(const double p[3], const double *n)
 {
-    double x = fabs(p[0]), y = p[1];
-    bool beyond = cross2(x, y, n[0], n[1]) > 0;
-    double line = beyond ? hypot(x - n[0], y - n[1]) : fabs(hypot(x, y) - hypot(n[0], n[1]));
-    double d = line - n[2] / 2;
+    const double x = fabs(p[0]), y = p[1];
+    const bool beyond = cross2(x, y, n[0], n[1]) > 0;
+    const double line = beyond ? hypot(x - n[0], y - n[1]) : fabs(hypot(x, y) - hypot(n[0], n[1]));
+    const double d = line - n[2] / 2;
 
     return d > 0 ? d : -arc_depth(x, y, n, beyond);
 }
 
 static struct bounds arc_box(const double *n)
 {
-    double radius = hypot(n[0], n[1]), half = n[2] / 2;
-    double side = (n[1] < 0 ? radius : n[0]) + half;
+    const double radius = hypot(n[0], n[1]), half = n[2] / 2;
+    const double side = (n[1] < 0 ? radius : n[0]) + half;
 
     return plane_box(-side, n[1] - half, side, radius + half);
 }
@@ -233,8 +233,8 @@ static void vesica_prepare(double *n)
 
 static double vesica(const double p[3], const double *n)
 {
-    double x = fabs(p[0]), y = fabs(p[1]), centre = n[1] / 2;
-    double tip = sqrt((n[0] - centre) * (n[0] + centre));
+    const double x = fabs(p[0]), y = fabs(p[1]), centre = n[1] / 2;
+    const double tip = sqrt((n[0] - centre) * (n[0] + centre));
 
     return (y - tip) * centre > x * tip ? hypot(x, y - tip) : hypot(x + centre, y) - n[0];
 }
@@ -252,8 +252,8 @@ static void cross_prepare(double *n)
 /* In one eighth of the plane: the end of a bar, its side, and the corner between the bars. */
 static double cross(const double p[3], const double *n)
 {
-    double x = fmax(fabs(p[0]), fabs(p[1])), y = fmin(fabs(p[0]), fabs(p[1]));
-    double along = x - n[0] / 2, aside = y - n[1] / 2;
+    const double x = fmax(fabs(p[0]), fabs(p[1])), y = fmin(fabs(p[0]), fabs(p[1]));
+    const double along = x - n[0] / 2, aside = y - n[1] / 2;
 
     if (along > 0 || aside > 0) {
         return hypot(fmax(along, 0), fmax(aside, 0));
@@ -274,7 +274,7 @@ enum { BEZIER_STEPS = 10 };
 
 static double bezier_square(const double *w, const double *u, const double *v, double t)
 {
-    double x = w[0] + t * (2 * u[0] + t * v[0]), y = w[1] + t * (2 * u[1] + t * v[1]);
+    const double x = w[0] + t * (2 * u[0] + t * v[0]), y = w[1] + t * (2 * u[1] + t * v[1]);
 
     return x * x + y * y;
 }
@@ -288,14 +288,14 @@ static double bezier(const double p[3], const double *n)
         u[i] = n[2 + i] - n[i];
         v[i] = n[i] - 2 * n[2 + i] + n[4 + i];
     }
-    double uv = u[0] * v[0] + u[1] * v[1], vv = v[0] * v[0] + v[1] * v[1];
-    double c0 = w[0] * u[0] + w[1] * u[1];
-    double c1 = 2 * (u[0] * u[0] + u[1] * u[1]) + w[0] * v[0] + w[1] * v[1];
+    const double uv = u[0] * v[0] + u[1] * v[1], vv = v[0] * v[0] + v[1] * v[1];
+    const double c0 = w[0] * u[0] + w[1] * u[1];
+    const double c1 = 2 * (u[0] * u[0] + u[1] * u[1]) + w[0] * v[0] + w[1] * v[1];
     double t[3] = {0, 1, clamp(-uv / fmax(vv, 1e-30), 0, 1)}, nearest = INFINITY;
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < BEZIER_STEPS && k < 2; i++) {
-            double value = ((vv * t[k] + 3 * uv) * t[k] + c1) * t[k] + c0;
-            double slope = (3 * vv * t[k] + 6 * uv) * t[k] + c1;
+            const double value = ((vv * t[k] + 3 * uv) * t[k] + c1) * t[k] + c0;
+            const double slope = (3 * vv * t[k] + 6 * uv) * t[k] + c1;
             t[k] = clamp(t[k] - value / fmax(slope, 1e-20), 0, 1);
         }
         nearest = fmin(nearest, bezier_square(w, u, v, t[k]));
@@ -318,19 +318,19 @@ static int bezier_trips(const double *n)
  * the straight side and the notch. */
 static double heart(const double p[3], const double *n)
 {
-    double size = n[0], x = fabs(p[0]), y = p[1];
+    const double size = n[0], x = fabs(p[0]), y = p[1];
 
     if (x + y > size) {
         return hypot(x - size / 4, y - 3 * size / 4) - size * sqrt(0.125);
     }
-    double foot = fmax(x + y, 0) / 2;
-    double d = fmin(hypot(x, y - size), hypot(x - foot, y - foot));
+    const double foot = fmax(x + y, 0) / 2;
+    const double d = fmin(hypot(x, y - size), hypot(x - foot, y - foot));
     return x < y ? -d : d;
 }
 
 static struct bounds heart_box(const double *n)
 {
-    double side = n[0] * (0.25 + sqrt(0.125));
+    const double side = n[0] * (0.25 + sqrt(0.125));
 
     return plane_box(-side, 0, side, n[0] * (0.75 + sqrt(0.125)));
 }

@@ -22,11 +22,11 @@ static double gyroid(const double p[3], const double *n)
     double s[3], c[3];
 
     for (int i = 0; i < 3; i++) {
-        double turns = p[i] / n[0];
+        const double turns = p[i] / n[0];
         s[i] = sin(2 * PI * (turns - round(turns)));
         c[i] = cos(2 * PI * (turns - round(turns)));
     }
-    double g = s[0] * c[1] + s[1] * c[2] + s[2] * c[0];
+    const double g = s[0] * c[1] + s[1] * c[2] + s[2] * c[0];
     return fmax(box(p, n[2], n[3], n[4]), fabs(g) * n[0] / (2 * PI * sqrt(3)) - n[1] / 2);
 }
 
@@ -50,7 +50,7 @@ static double menger(const double p[3], const double *n)
             q[i] -= cell * round(q[i] / cell);
             a[i] = fabs(q[i]);
         }
-        double middle = fmax(fmin(a[0], a[1]), fmin(fmax(a[0], a[1]), a[2]));
+        const double middle = fmax(fmin(a[0], a[1]), fmin(fmax(a[0], a[1]), a[2]));
         d = fmax(d, cell / 6 - middle);
     }
     return d;
@@ -88,7 +88,7 @@ static double julia(const double p[3], const double *n)
 
     radius[0] = length3(p[0], p[1], p[2]);
     while (last < (int)n[4] && radius[last] < 2 * edge) {
-        double real = 2 * q[0];
+        const double real = 2 * q[0];
         q[0] = q[0] * q[0] - q[1] * q[1] - q[2] * q[2] - q[3] * q[3] + n[0];
         for (int i = 1; i < 4; i++) {
             q[i] = real * q[i] + n[i];
@@ -97,7 +97,7 @@ static double julia(const double p[3], const double *n)
     }
     double e = radius[last] - edge;
     while (last-- > 0) {
-        double r = radius[last];
+        const double r = radius[last];
         e = fmax(e / fmax(sqrt(r * r + fabs(e)) + r, 1e-15), r - edge);
     }
     return e;
@@ -105,7 +105,7 @@ static double julia(const double p[3], const double *n)
 
 static struct bounds julia_box(const double *n)
 {
-    double edge = (1 + sqrt(1 + 4 * hypot(hypot(n[0], n[1]), hypot(n[2], n[3])))) / 2;
+    const double edge = (1 + sqrt(1 + 4 * hypot(hypot(n[0], n[1]), hypot(n[2], n[3])))) / 2;
 
     return bounds_centred(edge, edge, edge);
 }
@@ -128,13 +128,13 @@ static void bulb_power(double z[3], double r, double a, int power)
     double axis = fmax(a, 1e-30), turn[2] = {1, 0}, around[2] = {1, 0};
 
     for (int i = 0; i < power; i++) {
-        double t = turn[0] * z[1] - turn[1] * a, s = around[0] * z[2] - around[1] * z[0];
+        const double t = turn[0] * z[1] - turn[1] * a, s = around[0] * z[2] - around[1] * z[0];
         turn[1] = (turn[1] * z[1] + turn[0] * a) / fmax(r, 1e-30);
         turn[0] = t / fmax(r, 1e-30);
         around[1] = (around[1] * z[2] + around[0] * z[0]) / axis;
         around[0] = s / axis;
     }
-    double length = pow(r, power);
+    const double length = pow(r, power);
     z[0] = length * turn[1] * around[1];
     z[1] = length * turn[0];
     z[2] = length * turn[1] * around[0];
@@ -145,7 +145,7 @@ static void follow(struct orbit *orbit, const double p[3], int iterations)
     double z[3] = {p[0], p[1], p[2]};
 
     for (int i = 0;; i++) {
-        double r = length3(z[0], z[1], z[2]), a = hypot(z[0], z[2]);
+        const double r = length3(z[0], z[1], z[2]), a = hypot(z[0], z[2]);
         orbit->last = i;
         orbit->radius[i] = r;
         orbit->axis[i] = a;
@@ -172,11 +172,11 @@ static double reach(const struct orbit *orbit, double ball)
     double grown = 1, best = 0; /* how much larger the ball is than at first */
 
     for (int i = 0; i <= orbit->last; i++) {
-        double r = orbit->radius[i], room = inside ? orbit->edge - r : r - orbit->edge;
+        const double r = orbit->radius[i], room = inside ? orbit->edge - r : r - orbit->edge;
         best = !inside || i == orbit->last ? fmax(best, room / grown) : 0;
-        double e = ball * grown;
-        double stretch = fmin((r + e) / fmax(orbit->axis[i] - e, 1e-30), orbit->power);
-        double far = orbit->power / 2 * pow(r + e, orbit->power - 1);
+        const double e = ball * grown;
+        const double stretch = fmin((r + e) / fmax(orbit->axis[i] - e, 1e-30), orbit->power);
+        const double far = orbit->power / 2 * pow(r + e, orbit->power - 1);
         grown = fmin(stretch * (orbit->slope[i] + far) * grown + 1, 1e30);
     }
     return best;
@@ -190,7 +190,7 @@ static double mandelbulb(const double p[3], const double *n)
 
     follow(&orbit, p, (int)n[1]);
     /* Where |p| <= r - r^power for some r, orbits stay below that r. */
-    double core = (n[0] - 1) * pow(n[0], n[0] / (1 - n[0])) - orbit.radius[0];
+    const double core = (n[0] - 1) * pow(n[0], n[0] / (1 - n[0])) - orbit.radius[0];
     double ball = reach(&orbit, 0), low = fmax(core, 0), high = ball, before = 0, step = 0;
     for (int i = 0; i < BULB_TRIALS && low < high; i++) {
         double found = reach(&orbit, ball), error = log(fmax(found, 1e-30) / ball);
@@ -203,7 +203,7 @@ static double mandelbulb(const double p[3], const double *n)
         step = i > 0 && error != before ? error * step / (before - error) : error / 2;
         step = clamp(step, -1.5, 1.5);
         before = error;
-        double next = clamp(ball * exp(step), low, high);
+        const double next = clamp(ball * exp(step), low, high);
         step = log(next / ball);
         ball = next;
     }
@@ -213,7 +213,7 @@ static double mandelbulb(const double p[3], const double *n)
 /* |z^power| - |p| > |z| outside of the edge, where |z| >= |p|. */
 static struct bounds mandelbulb_box(const double *n)
 {
-    double edge = exp2(1 / (n[0] - 1));
+    const double edge = exp2(1 / (n[0] - 1));
 
     return bounds_centred(edge, edge, edge);
 }
@@ -247,11 +247,11 @@ static double value_noise(double x, double z, uint32_t seed)
 
     u *= u * (3 - 2 * u);
     v *= v * (3 - 2 * v);
-    double near_left = corner_height((int32_t)i, (int32_t)j, seed);
-    double near_right = corner_height((int32_t)i + 1, (int32_t)j, seed);
-    double far_left = corner_height((int32_t)i, (int32_t)j + 1, seed);
-    double far_right = corner_height((int32_t)i + 1, (int32_t)j + 1, seed);
-    double near_mix = near_left + (near_right - near_left) * u;
+    const double near_left = corner_height((int32_t)i, (int32_t)j, seed);
+    const double near_right = corner_height((int32_t)i + 1, (int32_t)j, seed);
+    const double far_left = corner_height((int32_t)i, (int32_t)j + 1, seed);
+    const double far_right = corner_height((int32_t)i + 1, (int32_t)j + 1, seed);
+    const double near_mix = near_left + (near_right - near_left) * u;
     return near_mix + (far_left + (far_right - far_left) * u - near_mix) * v;
 }
 
@@ -259,9 +259,9 @@ static double value_noise(double x, double z, uint32_t seed)
  * wide and half as high as the one before, so its slope is the same. */
 static double terrain(const double p[3], const double *n)
 {
-    double cell = fmax(n[0], n[2]) / 4, whole = 2 - exp2(1 - n[3]);
-    double steepness = hypot(1, 1.6 * n[3] * n[1] / (whole * cell));
-    double d = box(p, n[0], n[1], n[2]), low = (p[1] + n[1] / 2) / steepness;
+    const double cell = fmax(n[0], n[2]) / 4, whole = 2 - exp2(1 - n[3]);
+    const double steepness = hypot(1, 1.6 * n[3] * n[1] / (whole * cell));
+    const double d = box(p, n[0], n[1], n[2]), low = (p[1] + n[1] / 2) / steepness;
 
     if (low <= d) {
         return d; /* so also over the lowest ground */

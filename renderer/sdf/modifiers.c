@@ -83,7 +83,7 @@ static void elongate_map(const double p[3], const double *n, double out[3])
 
 static double elongate_after(double d, const double p[3], const double *n)
 {
-    double face = fmax(fabs(p[0]) - n[0], fmax(fabs(p[1]) - n[1], fabs(p[2]) - n[2]));
+    const double face = fmax(fabs(p[0]) - n[0], fmax(fabs(p[1]) - n[1], fabs(p[2]) - n[2]));
 
     return d < 0 ? d + fmin(face, 0) * n[3] : d;
 }
@@ -119,7 +119,7 @@ static void extrude_map(const double p[3], const double *n, double out[3])
 /* Distances along the section and across it stand at a right angle, so the gradient stays 1. */
 static double extrude_after(double d, const double p[3], const double *n)
 {
-    double along = (fabs(p[2]) - n[HALF]) * n[EXTRUDE_SCALE];
+    const double along = (fabs(p[2]) - n[HALF]) * n[EXTRUDE_SCALE];
 
     return corner(d + n[ROUNDING], along + n[ROUNDING]) - n[ROUNDING];
 }
@@ -135,7 +135,7 @@ static void revolve_prepare(const double *params, const struct bounds *child, do
 static struct bounds revolve_box(const double *params, const struct bounds *child)
 {
     struct bounds out = *child;
-    double radius = fmax(child->high[0] + params[0], 0);
+    const double radius = fmax(child->high[0] + params[0], 0);
 
     out.low[0] = out.low[2] = -radius;
     out.high[0] = out.high[2] = radius;

@@ -47,7 +47,7 @@ double noise_value(const double p[3], uint32_t seed)
     double u[3];
 
     for (int i = 0; i < 3; i++) {
-        double whole = floor(p[i]), t = p[i] - whole;
+        const double whole = floor(p[i]), t = p[i] - whole;
         at[i][0] = (uint32_t)(whole - PERIOD * floor(whole / PERIOD)) & 0xffff;
         at[i][1] = (at[i][0] + 1) & 0xffff;
         u[i] = t * t * t * (t * (t * 6 - 15) + 10);

@@ -121,17 +121,17 @@ static double power_blend(double least, double most, double k, double *out_great
         *out_greater = 0;
         return least;
     }
-    double ratio = least / most, part = exp2(k * log2(ratio)), share = part * ratio;
+    const double ratio = least / most, part = exp2(k * log2(ratio)), share = part * ratio;
     *out_greater = share / (1 + share);
     return least * exp2(-log1p(part) / (k * log(2)));
 }
 
 static double smin(double a, double b, const double *n, double *out_share)
 {
-    enum kernel kernel = (enum kernel)n[1];
+    const enum kernel kernel = (enum kernel)n[1];
     double least = fmin(a, b), most = fmax(a, b), greater;
-    double d = kernel == POWER ? power_blend(least, most, n[0], &greater)
-                               : least - blend_depth(most - least, n[0], n, &greater);
+    const double d = kernel == POWER ? power_blend(least, most, n[0], &greater)
+                                     : least - blend_depth(most - least, n[0], n, &greater);
 
     *out_share = b < a ? 1 - greater : greater;
     return d;
@@ -151,7 +151,7 @@ static double combine_smooth_difference(double a, double b, const double *n, dou
  * down by the blend's depth there, and x plus that depth grows with x. */
 static double blend_lowered(const double *n, size_t count)
 {
-    enum kernel kernel = (enum kernel)n[1];
+    const enum kernel kernel = (enum kernel)n[1];
     double k = blend_k(n), x = 0, greater;
 
     for (size_t i = 1; i < count && kernel != POWER; i++) {
@@ -163,7 +163,7 @@ static double blend_lowered(const double *n, size_t count)
 /* The power kernel moves no surface, but makes the field of equal operands as much less. */
 static double blend_stretched(const double *n, size_t count)
 {
-    bool power = (enum kernel)n[1] == POWER && count > 1;
+    const bool power = (enum kernel)n[1] == POWER && count > 1;
 
     return power ? pow((double)count, 1 / blend_k(n)) : 1;
 }

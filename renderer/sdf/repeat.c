@@ -43,13 +43,13 @@ static void repeat_prepare(const double *params, const struct bounds *child, dou
 {
     (void)scale;
     for (int i = 0; i < 3; i++) {
-        double spacing = params[i], count = params[3 + i];
-        double half = (child->high[i] - child->low[i]) / 2;
-        bool repeated = count != 0 && count != 1;
+        const double spacing = params[i], count = params[3 + i];
+        const double half = (child->high[i] - child->low[i]) / 2;
+        const bool repeated = count != 0 && count != 1;
         out_n[SPACING + i] = repeated ? spacing : 1;
         out_n[REPEAT_LIMIT + i] = count < 0 ? REPEAT_ENDLESS : fmax(count - 1, 0) / 2;
         out_n[CENTRE + i] = isfinite(half) ? child->low[i] + half : 0;
-        double reach = isfinite(half) || count > 0 ? half / spacing : 1;
+        const double reach = isfinite(half) || count > 0 ? half / spacing : 1;
         out_n[CELL_REACH + i] = repeated ? fmin(reach, SDF_REPEAT_CELLS_MAX) : 0;
     }
     limit_cells(out_n);
@@ -60,8 +60,8 @@ static struct bounds repeat_box(const double *params, const struct bounds *child
     struct bounds out = *child;
 
     for (int i = 0; i < 3; i++) {
-        double count = params[3 + i];
-        double reach = count < 0 ? INFINITY : params[i] * fmax(count - 1, 0) / 2;
+        const double count = params[3 + i];
+        const double reach = count < 0 ? INFINITY : params[i] * fmax(count - 1, 0) / 2;
         out.low[i] -= reach;
         out.high[i] += reach;
     }
@@ -72,8 +72,8 @@ static void repeat_range(const double p[3], const double *n, double out_first[3]
                          double out_last[3])
 {
     for (int i = 0; i < 3; i++) {
-        double limit = n[REPEAT_LIMIT + i], half = limit - floor(limit);
-        double x = (p[i] - n[CENTRE + i]) / n[SPACING + i] - half + 0.5;
+        const double limit = n[REPEAT_LIMIT + i], half = limit - floor(limit);
+        const double x = (p[i] - n[CENTRE + i]) / n[SPACING + i] - half + 0.5;
         out_first[i] = clamp(floor(x - n[CELL_REACH + i]) + half, -limit, limit);
         out_last[i] = clamp(floor(x + n[CELL_REACH + i]) + half, -limit, limit);
     }
@@ -138,7 +138,7 @@ static struct fan fan_of(const double *params, const struct bounds *child)
         see_box(moved.low, moved.high, &fan);
     }
     /* round(x + reach) - round(x - reach) + 1 is at most 2 * reach + 2. */
-    double most = fmax((SDF_REPEAT_CELLS_MAX - 2) * PI / fan.half, SDF_REPEAT_CELLS_MAX);
+    const double most = fmax((SDF_REPEAT_CELLS_MAX - 2) * PI / fan.half, SDF_REPEAT_CELLS_MAX);
     if (fan.around > most) {
         fan.around = floor(most);
         fan.slack = 2 * sin(PI / (2 * fan.around));
@@ -169,12 +169,12 @@ static void polar_prepare(const double *params, const struct bounds *child, doub
 /* A ring. With stand-ins it grows by the slack, which is more the farther out. */
 static struct bounds polar_box(const double *params, const struct bounds *child)
 {
-    double slack = fan_of(params, child).slack, lag = 1 - child->stretch * slack;
+    const double slack = fan_of(params, child).slack, lag = 1 - child->stretch * slack;
     struct bounds out = *child;
 
     out.low[0] += params[1];
     out.high[0] += params[1];
-    double radius = lag > 0 ? bounds_radius_y(&out) / lag : INFINITY;
+    const double radius = lag > 0 ? bounds_radius_y(&out) / lag : INFINITY;
     out = bounds_grow(out, slack * radius);
     out.low[0] = out.low[2] = -radius;
     out.high[0] = out.high[2] = radius;
@@ -184,7 +184,7 @@ static struct bounds polar_box(const double *params, const struct bounds *child)
 
 static void polar_range(const double p[3], const double *n, double out_first[3], double out_last[3])
 {
-    double x = (atan2(p[2], p[0]) - n[MIDDLE]) / n[STEP] + 0.5;
+    const double x = (atan2(p[2], p[0]) - n[MIDDLE]) / n[STEP] + 0.5;
 
     out_first[0] = floor(x - n[REACH]);
     out_last[0] = fmin(floor(x + n[REACH]), out_first[0] + n[AROUND] - 1);
@@ -193,7 +193,7 @@ static void polar_range(const double p[3], const double *n, double out_first[3],
 
 static void polar_cell(const double p[3], const double cell[3], const double *n, double out[3])
 {
-    double c = cos(n[STEP] * cell[0]), s = sin(n[STEP] * cell[0]);
+    const double c = cos(n[STEP] * cell[0]), s = sin(n[STEP] * cell[0]);
 
     out[0] = c * p[0] + s * p[2] - n[POLAR_RADIUS];
     out[1] = p[1];

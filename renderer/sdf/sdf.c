@@ -40,9 +40,9 @@ int sdf_numbers(const struct param *params, const struct value *values,
 
     for (int i = 0; params[i].name; i++) {
         const struct value *value = &values[i];
-        int components = param_components(params[i].type);
-        bool points = params[i].type == PARAM_POINTS;
-        int listed = points ? 2 * (int)value->number[0] : 0;
+        const int components = param_components(params[i].type);
+        const bool points = params[i].type == PARAM_POINTS;
+        const int listed = points ? 2 * (int)value->number[0] : 0;
         assert(count + components + points + listed <= SDF_NUMBERS_MAX);
         memcpy(out_n + count, value->number, (size_t)(components + points) * sizeof *out_n);
         count += components + points;

@@ -14,7 +14,7 @@ static struct bounds sphere_box(const double *n)
 
 static double box(const double p[3], const double *n)
 {
-    double x = fabs(p[0]) - n[0] / 2, y = fabs(p[1]) - n[1] / 2, z = fabs(p[2]) - n[2] / 2;
+    const double x = fabs(p[0]) - n[0] / 2, y = fabs(p[1]) - n[1] / 2, z = fabs(p[2]) - n[2] / 2;
 
     return length3(fmax(x, 0), fmax(y, 0), fmax(z, 0)) + fmin(fmax(x, fmax(y, z)), 0);
 }
@@ -34,14 +34,14 @@ static double ellipsoid_margin(const double *n)
 static double ellipsoid(const double p[3], const double *n)
 {
     double size[3] = {2 * n[0], 2 * n[1], 2 * n[2]};
-    double ball = length3(p[0] / n[0], p[1] / n[1], p[2] / n[2]) - 1;
+    const double ball = length3(p[0] / n[0], p[1] / n[1], p[2] / n[2]) - 1;
 
     return fmax(ball * fmin(n[0], fmin(n[1], n[2])), box(p, size) - ellipsoid_margin(n));
 }
 
 static struct bounds ellipsoid_box(const double *n)
 {
-    double margin = ellipsoid_margin(n);
+    const double margin = ellipsoid_margin(n);
 
     return bounds_centred(n[0] + margin, n[1] + margin, n[2] + margin);
 }
@@ -65,14 +65,14 @@ static double box_frame(const double p[3], const double *n)
     double along[3], across[3], open[3], outside = INFINITY, depth = INFINITY;
 
     for (int i = 0; i < 3; i++) {
-        double q = fabs(p[i]) - n[i] / 2;
+        const double q = fabs(p[i]) - n[i] / 2;
         along[i] = fmax(q, 0);
         across[i] = fmax(fmax(q, -n[3] - q), 0);
         open[i] = n[i] / 2 > n[3] ? fmax(q + n[3], 0) : 1e9;
         depth = fmin(depth, -q);
     }
     for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
         outside = fmin(outside, length3(along[i], across[j], across[k]));
         depth = fmin(depth, hypot(open[j], open[k]));
     }
@@ -83,7 +83,7 @@ static double box_frame(const double p[3], const double *n)
  * first lies beyond x = 0, it is where they meet. */
 static double disc_pair(double x, double y, double radius, double tube)
 {
-    double from = hypot(x - radius, y);
+    const double from = hypot(x - radius, y);
 
     if (radius * from < tube * (radius - x)) {
         return -hypot(x, fabs(y) - sqrt((tube - radius) * (tube + radius)));
@@ -104,7 +104,7 @@ static struct bounds torus_box(const double *n)
 /* capped_torus: radius and angle become x and y of the end on the side of +X. */
 static void capped_torus_prepare(double *n)
 {
-    double radius = n[0], angle = n[2];
+    const double radius = n[0], angle = n[2];
 
     n[0] = fmax(radius * sin(angle), 1e-12 * radius); /* never 0: the axis has a side */
     n[2] = radius * cos(angle);
@@ -117,7 +117,7 @@ static double capped_torus_depth(double x, double y, double z, const double *n, 
                                  bool beyond)
 {
     double tube = n[1], radius = hypot(n[0], n[2]), depth = INFINITY;
-    double middle = beyond ? n[0] : radius, from = beyond ? x : hypot(x, y);
+    const double middle = beyond ? n[0] : radius, from = beyond ? x : hypot(x, y);
 
     if (middle * ring + tube * (from - middle) >= 0) {
         depth = tube - ring;
@@ -126,7 +126,7 @@ static double capped_torus_depth(double x, double y, double z, const double *n, 
         depth = fmin(depth, length3(x, y, fabs(z) - sqrt((tube - radius) * (tube + radius))));
     }
     if (tube > n[0]) {
-        double seam = sqrt((tube - n[0]) * (tube + n[0])), w = hypot(y - n[2], z);
+        const double seam = sqrt((tube - n[0]) * (tube + n[0])), w = hypot(y - n[2], z);
         if (w > 0 ? n[2] * w + seam * (y - n[2]) < 0 : n[2] < seam) {
             depth = fmin(depth, hypot(x, w - seam));
         }
@@ -136,8 +136,8 @@ static double capped_torus_depth(double x, double y, double z, const double *n, 
 
 static double capped_torus(const double p[3], const double *n)
 {
-    double x = fabs(p[0]), y = p[1], z = p[2];
-    bool beyond = x * n[2] - y * n[0] > 0;
+    const double x = fabs(p[0]), y = p[1], z = p[2];
+    const bool beyond = x * n[2] - y * n[0] > 0;
     double ring =
         beyond ? length3(x - n[0], y - n[2], z) : hypot(hypot(x, y) - hypot(n[0], n[2]), z);
 
@@ -146,7 +146,7 @@ static double capped_torus(const double p[3], const double *n)
 
 static struct bounds capped_torus_box(const double *n)
 {
-    double radius = hypot(n[0], n[2]), side = (n[2] < 0 ? radius : n[0]) + n[1];
+    const double radius = hypot(n[0], n[2]), side = (n[2] < 0 ? radius : n[0]) + n[1];
 
     return (struct bounds){
         .low = {-side, n[2] - n[1], -n[1]}, .high = {side, radius + n[1], n[1]}, .stretch = 1};
@@ -192,7 +192,7 @@ static double capsule(const double p[3], const double *n)
         pa[i] = p[i] - n[i];
         ba[i] = n[3 + i] - n[i];
     }
-    double t = clamp(dot(pa, ba) / fmax(dot(ba, ba), 1e-30), 0, 1);
+    const double t = clamp(dot(pa, ba) / fmax(dot(ba, ba), 1e-30), 0, 1);
     return length3(pa[0] - t * ba[0], pa[1] - t * ba[1], pa[2] - t * ba[2]) - n[6];
 }
 
@@ -211,12 +211,12 @@ static struct bounds capsule_box(const double *n)
  * nearest point lies on its slope or on its base. */
 static double cone(const double p[3], const double *n)
 {
-    double radius = n[0], height = n[1];
-    double x = hypot(p[0], p[2]), y = height / 2 - p[1];
-    double t = clamp((x * radius + y * height) / (radius * radius + height * height), 0, 1);
-    double slope = hypot(x - t * radius, y - t * height);
-    double base = hypot(x - fmin(x, radius), y - height);
-    double outside = fmax(x * height - y * radius, y - height);
+    const double radius = n[0], height = n[1];
+    const double x = hypot(p[0], p[2]), y = height / 2 - p[1];
+    const double t = clamp((x * radius + y * height) / (radius * radius + height * height), 0, 1);
+    const double slope = hypot(x - t * radius, y - t * height);
+    const double base = hypot(x - fmin(x, radius), y - height);
+    const double outside = fmax(x * height - y * radius, y - height);
 
     return outside > 0 ? fmin(slope, base) : -fmin(slope, base);
 }
@@ -225,9 +225,9 @@ static double cone(const double p[3], const double *n)
  * its slanted side, or on top or bottom, whichever is on this side of the middle. */
 static double capped_cone(const double p[3], const double *n)
 {
-    double x = hypot(p[0], p[2]), half = n[2] / 2, over = fabs(p[1]) - half;
-    double wx = x - n[0], wy = p[1] + half, sx = n[1] - n[0], sy = n[2];
-    double t = clamp((wx * sx + wy * sy) / (sx * sx + sy * sy), 0, 1);
+    const double x = hypot(p[0], p[2]), half = n[2] / 2, over = fabs(p[1]) - half;
+    const double wx = x - n[0], wy = p[1] + half, sx = n[1] - n[0], sy = n[2];
+    const double t = clamp((wx * sx + wy * sy) / (sx * sx + sy * sy), 0, 1);
     double d =
         fmin(hypot(wx - t * sx, wy - t * sy), hypot(fmax(x - (p[1] < 0 ? n[0] : n[1]), 0), over));
 
@@ -236,7 +236,7 @@ static double capped_cone(const double p[3], const double *n)
 
 static struct bounds capped_cone_box(const double *n)
 {
-    double side = fmax(n[0], n[1]);
+    const double side = fmax(n[0], n[1]);
 
     return bounds_centred(side, n[2] / 2, side);
 }
@@ -244,8 +244,8 @@ static struct bounds capped_cone_box(const double *n)
 /* The wall touches both balls at the angle whose sine is `tilt`, unless one holds the other. */
 static double round_cone(const double p[3], const double *n)
 {
-    double x = hypot(p[0], p[2]), y = p[1], tilt = (n[0] - n[1]) / n[2];
-    double level = sqrt(fmax((1 - tilt) * (1 + tilt), 0)), along = y * level - x * tilt;
+    const double x = hypot(p[0], p[2]), y = p[1], tilt = (n[0] - n[1]) / n[2];
+    const double level = sqrt(fmax((1 - tilt) * (1 + tilt), 0)), along = y * level - x * tilt;
 
     if (tilt >= 1 || (tilt > -1 && along < 0)) {
         return hypot(x, y) - n[0];
@@ -258,7 +258,7 @@ static double round_cone(const double p[3], const double *n)
 
 static struct bounds round_cone_box(const double *n)
 {
-    double side = fmax(n[0], n[1]);
+    const double side = fmax(n[0], n[1]);
 
     return (struct bounds){.low = {-side, fmin(-n[0], n[2] - n[1]), -side},
                            .high = {side, fmax(n[0], n[2] + n[1]), side},
@@ -268,8 +268,8 @@ static struct bounds round_cone_box(const double *n)
 /* Radius and angle become the end of the section's straight side; an x of 0 means a whole ball. */
 static void solid_angle_prepare(double *n)
 {
-    double radius = n[0], angle = n[1];
-    bool whole = angle > 3.14159;
+    const double radius = n[0], angle = n[1];
+    const bool whole = angle > 3.14159;
 
     n[0] = whole ? 0 : fmax(radius * sin(angle), 1e-12 * radius);
     n[1] = whole ? -radius : radius * cos(angle);
@@ -277,9 +277,9 @@ static void solid_angle_prepare(double *n)
 
 static double solid_angle(const double p[3], const double *n)
 {
-    double x = hypot(p[0], p[2]), y = p[1], radius = hypot(n[0], n[1]);
-    double t = clamp((x * n[0] + y * n[1]) / (radius * radius), 0, 1);
-    double ball = hypot(x, y) - radius, side = hypot(x - t * n[0], y - t * n[1]);
+    const double x = hypot(p[0], p[2]), y = p[1], radius = hypot(n[0], n[1]);
+    const double t = clamp((x * n[0] + y * n[1]) / (radius * radius), 0, 1);
+    const double ball = hypot(x, y) - radius, side = hypot(x - t * n[0], y - t * n[1]);
 
     if (n[0] == 0) {
         return ball;
@@ -289,7 +289,7 @@ static double solid_angle(const double p[3], const double *n)
 
 static struct bounds solid_angle_box(const double *n)
 {
-    double radius = hypot(n[0], n[1]), side = n[1] < 0 ? radius : n[0];
+    const double radius = hypot(n[0], n[1]), side = n[1] < 0 ? radius : n[0];
 
     return (struct bounds){
         .low = {-side, fmin(n[1], 0), -side}, .high = {side, radius, side}, .stretch = 1};
@@ -303,7 +303,7 @@ static void cut_sphere_prepare(double *n)
 /* The rim is nearest to what lies outside of it and below the cone from the centre through it. */
 static double cut_sphere(const double p[3], const double *n)
 {
-    double x = hypot(p[0], p[2]), y = p[1], rim = sqrt((n[0] - n[1]) * (n[0] + n[1]));
+    const double x = hypot(p[0], p[2]), y = p[1], rim = sqrt((n[0] - n[1]) * (n[0] + n[1]));
 
     if (x > rim && x * n[1] > y * rim) {
         return hypot(x - rim, y - n[1]);
@@ -313,7 +313,7 @@ static double cut_sphere(const double p[3], const double *n)
 
 static struct bounds cut_sphere_box(const double *n)
 {
-    double side = n[1] > 0 ? sqrt((n[0] - n[1]) * (n[0] + n[1])) : n[0];
+    const double side = n[1] > 0 ? sqrt((n[0] - n[1]) * (n[0] + n[1])) : n[0];
 
     return (struct bounds){.low = {-side, n[1], -side}, .high = {side, n[0], side}, .stretch = 1};
 }
@@ -321,7 +321,7 @@ static struct bounds cut_sphere_box(const double *n)
 /* Radius and height become x and y of the rim. */
 static void cut_hollow_sphere_prepare(double *n)
 {
-    double radius = n[0], height = clamp(n[1], -radius, radius);
+    const double radius = n[0], height = clamp(n[1], -radius, radius);
 
     n[0] = fmax(sqrt((radius - height) * (radius + height)), 1e-12 * radius);
     n[1] = height;
@@ -336,7 +336,7 @@ static double cut_hollow_sphere(const double p[3], const double *n)
 
 static struct bounds cut_hollow_sphere_box(const double *n)
 {
-    double radius = hypot(n[0], n[1]), side = (n[1] > 0 ? radius : n[0]) + n[2];
+    const double radius = hypot(n[0], n[1]), side = (n[1] > 0 ? radius : n[0]) + n[2];
 
     return (struct bounds){
         .low = {-side, -radius - n[2], -side}, .high = {side, n[1] + n[2], side}, .stretch = 1};
@@ -373,14 +373,14 @@ static struct bounds death_star_box(const double *n)
     double rim_x, rim_r;
 
     death_star_rim(n, &rim_x, &rim_r);
-    double side = rim_x < 0 ? rim_r : n[0];
+    const double side = rim_x < 0 ? rim_r : n[0];
     return (struct bounds){
         .low = {-n[0], -side, -side}, .high = {fmin(rim_x, n[0]), side, side}, .stretch = 1};
 }
 
 static void plane_prepare(double *n)
 {
-    double length = length3(n[0], n[1], n[2]);
+    const double length = length3(n[0], n[1], n[2]);
 
     for (int i = 0; i < 3; i++) {
         n[i] = length > 0 ? n[i] / length : i == 1;

@@ -17,9 +17,9 @@ static double side(double x, double y, double radius, double half)
 
 static double hex_prism(const double p[3], const double *n)
 {
-    double x = fabs(p[0]), y = fabs(p[1]);
-    double beyond = fmax(x * sqrt(3) / 2 - y / 2, 0); /* of the mirror between two sides */
-    double flat = side(x - beyond * sqrt(3), y + beyond, n[0], n[0] / sqrt(3));
+    const double x = fabs(p[0]), y = fabs(p[1]);
+    const double beyond = fmax(x * sqrt(3) / 2 - y / 2, 0); /* of the mirror between two sides */
+    const double flat = side(x - beyond * sqrt(3), y + beyond, n[0], n[0] / sqrt(3));
 
     return corner(flat, fabs(p[2]) - n[1] / 2);
 }
@@ -31,9 +31,9 @@ static struct bounds hex_prism_box(const double *n)
 
 static double tri_prism(const double p[3], const double *n)
 {
-    double x = fabs(p[0]), y = p[1];
-    double beyond = fmax(x / 2 + y * sqrt(3) / 2, 0);
-    double flat = side(x - beyond, beyond * sqrt(3) - y, n[0], n[0] * sqrt(3));
+    const double x = fabs(p[0]), y = p[1];
+    const double beyond = fmax(x / 2 + y * sqrt(3) / 2, 0);
+    const double flat = side(x - beyond, beyond * sqrt(3) - y, n[0], n[0] * sqrt(3));
 
     return corner(flat, fabs(p[2]) - n[1] / 2);
 }
@@ -53,9 +53,9 @@ static struct bounds tri_prism_box(const double *n)
 static double octahedron(const double p[3], const double *n)
 {
     double a[3] = {fabs(p[0]), fabs(p[1]), fabs(p[2])};
-    int least = a[0] <= fmin(a[1], a[2]) ? 0 : a[1] <= a[2] ? 1 : 2;
-    double x = a[least], y = a[(least + 1) % 3], z = a[(least + 2) % 3];
-    double face = x + y + z - n[0], t = clamp((z - y + n[0]) / 2, 0, n[0]);
+    const int least = a[0] <= fmin(a[1], a[2]) ? 0 : a[1] <= a[2] ? 1 : 2;
+    const double x = a[least], y = a[(least + 1) % 3], z = a[(least + 2) % 3];
+    const double face = x + y + z - n[0], t = clamp((z - y + n[0]) / 2, 0, n[0]);
 
     return 3 * x < face ? length3(x, y - n[0] + t, z - t) : face / sqrt(3);
 }
@@ -71,19 +71,19 @@ static struct bounds octahedron_box(const double *n)
 static double regular(const double q[3], const double ways[3][3], double radius)
 {
     double axes[3][3], corner_at[3], w[3];
-    double along_face = dot(ways[0], ways[0]), along_corner = dot(ways[2], ways[2]);
-    double inner = radius * dot(ways[0], ways[2]) / sqrt(along_face * along_corner);
+    const double along_face = dot(ways[0], ways[0]), along_corner = dot(ways[2], ways[2]);
+    const double inner = radius * dot(ways[0], ways[2]) / sqrt(along_face * along_corner);
 
     for (int i = 0; i < 3; i++) {
-        double face = ways[0][i] / sqrt(along_face);
-        double edge = ways[1][i] * inner * sqrt(along_face) / dot(ways[0], ways[1]);
+        const double face = ways[0][i] / sqrt(along_face);
+        const double edge = ways[1][i] * inner * sqrt(along_face) / dot(ways[0], ways[1]);
         corner_at[i] = ways[2][i] * radius / sqrt(along_corner);
         axes[0][i] = face;
         axes[1][i] = edge - face * inner;
         axes[2][i] = corner_at[i] - edge;
     }
     for (int i = 0; i < 3; i++) {
-        double length = sqrt(dot(axes[i], axes[i]));
+        const double length = sqrt(dot(axes[i], axes[i]));
         w[i] = (dot(axes[i], q) - dot(axes[i], corner_at)) / length;
     }
     return w[1] > 0 ? length3(w[0], w[1], fmax(w[2], 0)) : w[0];
@@ -94,8 +94,8 @@ static double regular(const double q[3], const double ways[3][3], double radius)
 static double tetrahedron(const double p[3], const double *n)
 {
     static const double ways[3][3] = {{1, 1, -1}, {1, 0, 0}, {1, 1, 1}};
-    double x = fabs(p[0]), y = fabs(p[1]), z = fabs(p[2]), least = fmin(x, fmin(y, z));
-    bool odd = (p[0] < 0) != ((p[1] < 0) != (p[2] < 0));
+    const double x = fabs(p[0]), y = fabs(p[1]), z = fabs(p[2]), least = fmin(x, fmin(y, z));
+    const bool odd = (p[0] < 0) != ((p[1] < 0) != (p[2] < 0));
     double q[3] = {fmax(x, fmax(y, z)), fmax(fmin(x, y), fmin(fmax(x, y), z)),
                    odd ? -least : least};
 
@@ -105,7 +105,7 @@ static double tetrahedron(const double p[3], const double *n)
 /* Corners at equal signs of three equal coordinates. */
 static struct bounds tetrahedron_box(const double *n)
 {
-    double x = n[0] / sqrt(3);
+    const double x = n[0] / sqrt(3);
 
     return bounds_centred(x, x, x);
 }
@@ -117,7 +117,7 @@ static void icosahedral(double q[3])
     static const double mirror[3] = {GOLDEN / 2, 0.5, -1 / (2 * GOLDEN)};
 
     for (int round = 0; round <= 3; round++) {
-        double beyond = round ? fmax(dot(q, mirror), 0) : 0;
+        const double beyond = round ? fmax(dot(q, mirror), 0) : 0;
         for (int i = 0; i < 3; i++) {
             q[i] = fabs(q[i] - 2 * beyond * mirror[i]);
         }
@@ -136,7 +136,7 @@ static double dodecahedron(const double p[3], const double *n)
 
 static struct bounds dodecahedron_box(const double *n)
 {
-    double x = n[0] * GOLDEN / sqrt(3);
+    const double x = n[0] * GOLDEN / sqrt(3);
 
     return bounds_centred(x, x, x);
 }
@@ -152,7 +152,7 @@ static double icosahedron(const double p[3], const double *n)
 
 static struct bounds icosahedron_box(const double *n)
 {
-    double x = n[0] * GOLDEN / sqrt(GOLDEN + 2);
+    const double x = n[0] * GOLDEN / sqrt(GOLDEN + 2);
 
     return bounds_centred(x, x, x);
 }
@@ -164,16 +164,16 @@ static struct bounds icosahedron_box(const double *n)
  * from the middle of its lower edge, the side is the triangle (0, +-half), (slope, 0). */
 static double pyramid(const double p[3], const double *n)
 {
-    double half = n[0] / 2, height = n[1], slope = hypot(half, height);
-    double x = fmax(fabs(p[0]), fabs(p[2])) - half, z = fmin(fabs(p[0]), fabs(p[2])) - half;
-    double above = (x * height + p[1] * half) / slope, u = (p[1] * height - x * half) / slope;
+    const double half = n[0] / 2, height = n[1], slope = hypot(half, height);
+    const double x = fmax(fabs(p[0]), fabs(p[2])) - half, z = fmin(fabs(p[0]), fabs(p[2])) - half;
+    const double above = (x * height + p[1] * half) / slope, u = (p[1] * height - x * half) / slope;
 
     if (p[1] > 0 && above < 0) {
         return -fmin(p[1], -above);
     }
     double over[2] = {fmin(u, 0), fmax(z, 0)};
     if (u * half + z * slope > 0) {
-        double t = clamp((u * slope - z * half) / (slope * slope + half * half), 0, 1);
+        const double t = clamp((u * slope - z * half) / (slope * slope + half * half), 0, 1);
         over[0] = u - t * slope;
         over[1] = z + t * half;
     }
@@ -192,10 +192,10 @@ static struct bounds pyramid_box(const double *n)
 
 static double rhombus(const double p[3], const double *n)
 {
-    double a = n[0] / 2, b = n[1] / 2, x = fabs(p[0]) - a, z = fabs(p[2]);
-    double t = clamp((z * b - x * a) / (a * a + b * b), 0, 1);
-    double edge = hypot(x + t * a, z - t * b);
-    bool inside = x * b + z * a < 0;
+    const double a = n[0] / 2, b = n[1] / 2, x = fabs(p[0]) - a, z = fabs(p[2]);
+    const double t = clamp((z * b - x * a) / (a * a + b * b), 0, 1);
+    const double edge = hypot(x + t * a, z - t * b);
+    const bool inside = x * b + z * a < 0;
 
     return corner((inside ? -edge : edge) - n[3], fabs(p[1]) - n[2] / 2);
 }
@@ -214,7 +214,7 @@ static double segment_square(const double p[3], const double *a, const double *b
         w[i] = p[i] - a[i];
         e[i] = b[i] - a[i];
     }
-    double t = clamp(dot(w, e) / fmax(dot(e, e), 1e-30), 0, 1);
+    const double t = clamp(dot(w, e) / fmax(dot(e, e), 1e-30), 0, 1);
     for (int i = 0; i < 3; i++) {
         w[i] -= t * e[i];
     }
@@ -232,16 +232,16 @@ static double triangle_square(const double p[3], const double *a, const double *
         u[i] = b[i] - a[i];
         v[i] = c[i] - a[i];
     }
-    double uu = fmax(dot(u, u), 1e-30), uv = dot(u, v);
+    const double uu = fmax(dot(u, u), 1e-30), uv = dot(u, v);
     for (int i = 0; i < 3; i++) {
         across[i] = v[i] - u[i] * uv / uu;
     }
-    double t = clamp(dot(w, across) / fmax(dot(across, across), 1e-30), 0, 1);
-    double s = clamp((dot(w, u) - t * uv) / uu, 0, 1 - t);
+    const double t = clamp(dot(w, across) / fmax(dot(across, across), 1e-30), 0, 1);
+    const double s = clamp((dot(w, u) - t * uv) / uu, 0, 1 - t);
     for (int i = 0; i < 3; i++) {
         w[i] -= s * u[i] + t * v[i];
     }
-    double edges = fmin(segment_square(p, b, c), segment_square(p, c, a));
+    const double edges = fmin(segment_square(p, b, c), segment_square(p, c, a));
     return fmin(fmin(dot(w, w), segment_square(p, a, b)), edges);
 }
 
@@ -269,7 +269,7 @@ static struct bounds triangle_box(const double *n)
 
 static double quad(const double p[3], const double *n)
 {
-    double first = triangle_square(p, n, n + 3, n + 6);
+    const double first = triangle_square(p, n, n + 3, n + 6);
 
     return sqrt(fmin(first, triangle_square(p, n, n + 6, n + 9))) - n[12];
 }

@@ -26,7 +26,7 @@ static double twist_radius(const struct bounds *child)
 /* A shear by at most a = |rate| * radius: the greatest singular value of [[1, a], [0, 1]]. */
 static double twist_lipschitz(double rate, double radius)
 {
-    double a = fabs(rate) * radius;
+    const double a = fabs(rate) * radius;
 
     return (a + sqrt(a * a + 4)) / 2;
 }
@@ -43,7 +43,7 @@ static void twist_prepare(const double *params, const struct bounds *child, doub
 static struct bounds twist_box(const double *params, const struct bounds *child)
 {
     struct bounds out = *child;
-    double radius = twist_radius(child);
+    const double radius = twist_radius(child);
 
     out.low[0] = out.low[2] = -radius;
     out.high[0] = out.high[2] = radius;
@@ -53,9 +53,9 @@ static struct bounds twist_box(const double *params, const struct bounds *child)
 
 static void twist_map(const double p[3], const double *n, double out[3])
 {
-    double inward = fmin(n[RADIUS] / fmax(hypot(p[0], p[2]), 1e-30), 1);
-    double x = p[0] * inward, z = p[2] * inward;
-    double c = cos(n[RATE] * p[1]), s = sin(n[RATE] * p[1]);
+    const double inward = fmin(n[RADIUS] / fmax(hypot(p[0], p[2]), 1e-30), 1);
+    const double x = p[0] * inward, z = p[2] * inward;
+    const double c = cos(n[RATE] * p[1]), s = sin(n[RATE] * p[1]);
 
     out[0] = c * x - s * z;
     out[1] = p[1];
@@ -91,7 +91,7 @@ static void bend_prepare(const double *params, const struct bounds *child, doubl
 static struct bounds bend_box(const double *params, const struct bounds *child)
 {
     struct bounds out = *child;
-    double radius = bend_radius(child);
+    const double radius = bend_radius(child);
 
     out.low[0] = out.low[1] = -radius;
     out.high[0] = out.high[1] = radius;
@@ -101,9 +101,9 @@ static struct bounds bend_box(const double *params, const struct bounds *child)
 
 static void bend_map(const double p[3], const double *n, double out[3])
 {
-    double inward = fmin(n[RADIUS] / fmax(hypot(p[0], p[1]), 1e-30), 1);
-    double x = p[0] * inward, y = p[1] * inward;
-    double c = cos(n[RATE] * x), s = sin(n[RATE] * x);
+    const double inward = fmin(n[RADIUS] / fmax(hypot(p[0], p[1]), 1e-30), 1);
+    const double x = p[0] * inward, y = p[1] * inward;
+    const double c = cos(n[RATE] * x), s = sin(n[RATE] * x);
 
     out[0] = c * x + s * y;
     out[1] = c * y - s * x;
@@ -212,7 +212,7 @@ static void displace_prepare(const double *params, const struct bounds *child, d
 
 static double displace_after(double d, const double p[3], const double *n)
 {
-    double waves = sin(n[0] * p[0]) * sin(n[1] * p[1]) * sin(n[2] * p[2]);
+    const double waves = sin(n[0] * p[0]) * sin(n[1] * p[1]) * sin(n[2] * p[2]);
 
     return fmax((d + n[3] * waves) * n[4], d - n[3]);
 }
@@ -225,8 +225,9 @@ static void noise_prepare(const double *params, const struct bounds *child, doub
                           double *out_n)
 {
     (void)child;
-    double amplitude = params[0], octaves = params[2], first = amplitude / noise_greatest(octaves);
-    double slope = first * params[1] * noise_slope(octaves);
+    const double amplitude = params[0], octaves = params[2],
+                 first = amplitude / noise_greatest(octaves);
+    const double slope = first * params[1] * noise_slope(octaves);
 
     out_n[NOISE_FREQUENCY] = params[1];
     out_n[FIRST] = first * scale;
@@ -242,8 +243,8 @@ static double noise_after(double d, const double p[3], const double *n)
 {
     const double q[3] = {n[NOISE_FREQUENCY] * p[0], n[NOISE_FREQUENCY] * p[1],
                          n[NOISE_FREQUENCY] * p[2]};
-    int octaves = d < n[FAR_OFF] ? (int)n[OCTAVES] : 0;
-    double g = n[FIRST] * noise_octaves(q, octaves, (uint32_t)n[SEED]);
+    const int octaves = d < n[FAR_OFF] ? (int)n[OCTAVES] : 0;
+    const double g = n[FIRST] * noise_octaves(q, octaves, (uint32_t)n[SEED]);
 
     return fmax((d + g) * n[PER_NOISE], d - n[GREATEST]);
 }

@@ -12,7 +12,7 @@ const char *emit_text(struct emit *e, const char *format, ...)
     va_list args;
 
     va_start(args, format);
-    int length = vasprintf(&text, format, args);
+    const int length = vasprintf(&text, format, args);
     va_end(args);
     if (length < 0) {
         abort();

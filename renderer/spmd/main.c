@@ -87,7 +87,7 @@ static char *read_all(const char *path)
 {
     FILE *in = fopen(path, "r");
     char *text = malloc(1 << 22);
-    size_t length = in && text ? fread(text, 1, (1 << 22) - 1, in) : 0;
+    const size_t length = in && text ? fread(text, 1, (1 << 22) - 1, in) : 0;
 
     if (!in || !text) {
         fprintf(stderr, "spmd: cannot read %s\n", path);

@@ -41,7 +41,7 @@ enum base spmd_base(const struct tree *tree, struct type type, int i)
         return (enum base)type.base;
     }
     for (const struct variable *v = tree->structs[type.rows].members; v; v = v->next) {
-        int count = spmd_components(tree, v->type);
+        const int count = spmd_components(tree, v->type);
         if (i < count) {
             return spmd_base(tree, v->type, i);
         }
@@ -159,7 +159,7 @@ static bool resolve_call_of(struct resolver *r, struct expr *expr)
     int least = 0;
 
     for (struct function *f = expr->name->functions; f; f = f->overload) {
-        int conversions = fits(f, expr);
+        const int conversions = fits(f, expr);
         if (conversions >= 0 && (!best || conversions < least)) {
             best = f;
             least = conversions;
@@ -295,7 +295,7 @@ static bool resolve_member(struct resolver *r, struct expr *expr)
     expr->kind = EXPR_SWIZZLE;
     expr->swizzle_count = (uint8_t)strlen(letters);
     for (int i = 0; i < expr->swizzle_count; i++) {
-        int at = i < 4 ? letter_of(letters[i]) : -1;
+        const int at = i < 4 ? letter_of(letters[i]) : -1;
         if (at < 0 || at >= of.rows) {
             return tree_fail(r->tree, expr->at, "there is no component %s", letters);
         }

@@ -45,7 +45,7 @@ static void add_stages(cJSON *row, double *numbers, int rounds)
     cJSON *stages = cJSON_AddObjectToObject(row, "stages_ms");
 
     for (int stage = 0; stage < FRAME_STAGES; stage++) {
-        double ms = bench_quantile(numbers + (ptrdiff_t)stage * rounds, (size_t)rounds, 0.5);
+        const double ms = bench_quantile(numbers + (ptrdiff_t)stage * rounds, (size_t)rounds, 0.5);
         if (ms > 0) {
             bench_add(stages, stage_row((enum frame_stage)stage)->name, ms);
         }
@@ -61,7 +61,7 @@ bool bench_medians(struct renderer *renderer, struct resident *resident,
 
     for (int i = -1; ok && i < rounds; i++) { /* the first one only warms up */
         struct job_times times = {0};
-        int64_t start = clock_us();
+        const int64_t start = clock_us();
         ok = bench_draw(renderer, resident, desc, &times, err);
         for (int stage = 0; i >= 0 && stage < FRAME_STAGES; stage++) {
             numbers[stage * rounds + i] = times.us[stage] / 1000.0;

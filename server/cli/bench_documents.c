@@ -51,15 +51,16 @@ static double ms_since(int64_t start)
 /* Sets a number of one leaf after the other. */
 static double edit_us(struct scene *scene)
 {
-    int64_t start = clock_us();
+    const int64_t start = clock_us();
 
     for (size_t i = 0; i < EDITS; i++) {
         char text[128];
-        size_t node = 2 + i * (scene->node_count - 2) / EDITS;
-        int length = snprintf(text, sizeof text,
-                              "[{\"op\":\"set\",\"at\":\"/nodes/node-%zu/transform/translation\","
-                              "\"value\":[%zu,0,0]}]",
-                              node, i);
+        const size_t node = 2 + i * (scene->node_count - 2) / EDITS;
+        const int length =
+            snprintf(text, sizeof text,
+                     "[{\"op\":\"set\",\"at\":\"/nodes/node-%zu/transform/translation\","
+                     "\"value\":[%zu,0,0]}]",
+                     node, i);
         cJSON *ops = json_parse(text, (size_t)length, NULL), *inverse = NULL;
         edit_apply(scene, ops, NULL, &inverse, NULL); /* every hundredth is a group: not found */
         cJSON_Delete(inverse);
@@ -73,7 +74,7 @@ static cJSON *measure(size_t nodes, struct error *err)
     size_t length;
     char *text = bench_document(nodes, &length);
     cJSON *row = cJSON_CreateObject();
-    size_t before = mallinfo2().uordblks;
+    const size_t before = mallinfo2().uordblks;
     int64_t start = clock_us();
     struct scene *scene = scene_parse(text, length, err);
 

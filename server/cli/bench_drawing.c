@@ -63,7 +63,7 @@ static cJSON *read_answer(FILE *in, struct error *err)
 {
     char *text = NULL;
     size_t size = 0;
-    ssize_t length = getdelim(&text, &size, '\0', in);
+    const ssize_t length = getdelim(&text, &size, '\0', in);
     cJSON *result = length > 0 ? json_parse(text, (size_t)length, err) : NULL;
 
     free(text);
@@ -85,7 +85,7 @@ static cJSON *in_child(measurement *measure, const struct task *task, struct err
     int ends[2];
 
     fflush(NULL);
-    pid_t child = pipe(ends) == 0 ? fork() : -1;
+    const pid_t child = pipe(ends) == 0 ? fork() : -1;
     if (child < 0) {
         error_set(err, ERROR_INTERNAL, "", "no process: %s", strerror(errno));
         return NULL;
@@ -147,7 +147,7 @@ static cJSON *measure_first(const struct task *task, struct error *err)
         other = resident_create(renderer, scene_create_empty(), 1);
     }
     if (other && bench_draw(renderer, other, &desc, &times, err)) {
-        int64_t start = clock_us();
+        const int64_t start = clock_us();
         resident = bench_open(renderer, task->example, err);
         if (resident && bench_draw(renderer, resident, &desc, &times, err)) {
             row = cJSON_CreateObject();
@@ -220,7 +220,7 @@ static cJSON *measure_encoders(const struct image *image, int rounds, struct err
         size_t length = 0;
         for (int i = 0; i < rounds; i++) {
             uint8_t *bytes = NULL;
-            int64_t start = clock_us();
+            const int64_t start = clock_us();
             if (!image_encode(image, &codecs[c].params, &bytes, &length, err)) {
                 cJSON_Delete(rows);
                 free(numbers);
@@ -298,7 +298,7 @@ static void add_ratios(cJSON *rows)
         cJSON_ArrayForEach(row, rows)
         {
             cJSON *picture = cJSON_GetArrayItem(cJSON_GetObjectItem(row, "pictures"), size);
-            double ms = bench_number(picture, "ms");
+            const double ms = bench_number(picture, "ms");
             quickest = quickest == 0 || ms < quickest ? ms : quickest;
         }
         cJSON_ArrayForEach(row, rows)

@@ -24,7 +24,7 @@ static int write_edit(char *out, size_t size, const struct node *node, int i)
 static bool edit(struct resident *resident, const char *text, size_t length, struct error *err)
 {
     cJSON *ops = json_parse(text, length, err);
-    bool ok = ops && resident_edit(resident, ops, resident_revision(resident) + 1, err);
+    const bool ok = ops && resident_edit(resident, ops, resident_revision(resident) + 1, err);
 
     cJSON_Delete(ops);
     return ok;

@@ -66,7 +66,7 @@ static cJSON *measure(struct bench_edits *edits)
     store_flush(edits->store);
     int64_t start = clock_us();
     for (int i = 0; i < ALONE; i++) {
-        int64_t pushed = clock_us();
+        const int64_t pushed = clock_us();
         push_edit(edits);
         store_flush(edits->store);
         numbers[i] = (double)(clock_us() - pushed) / 1000;

@@ -46,7 +46,7 @@ static int say(enum verdict verdict, const char *what, const char *format, ...)
 static void list_devices(const struct device_params *params)
 {
     struct device_report rows[DEVICES_MAX];
-    size_t count = renderer_devices(params, rows, DEVICES_MAX);
+    const size_t count = renderer_devices(params, rows, DEVICES_MAX);
 
     for (size_t i = 0; i < count; i++) {
         printf("      device %zu      %s: %s\n", i, rows[i].name, rows[i].verdict);
@@ -121,7 +121,7 @@ static int check_confinement(const struct options *options)
 
     local_render_params(options, &params.renderer);
     fflush(stdout);
-    bool draws = worker_try(&params, &confined, &err);
+    const bool draws = worker_try(&params, &confined, &err);
     if (params.confine == CONFINE_OFF) {
         return say(WARNING, "confinement", "off (--confine)");
     }
@@ -160,7 +160,7 @@ static char *nearest_existing(const char *path)
 static int check_data(const char *path)
 {
     char *existing = nearest_existing(path);
-    bool made = strcmp(existing, path) == 0;
+    const bool made = strcmp(existing, path) == 0;
     struct statvfs disk;
     int bad = 0;
 
@@ -169,7 +169,7 @@ static int check_data(const char *path)
     } else if (statvfs(existing, &disk) != 0) {
         bad = say(BAD, "data", "%s: %s", existing, strerror(errno));
     } else {
-        unsigned long long room = (unsigned long long)disk.f_bavail * disk.f_frsize;
+        const unsigned long long room = (unsigned long long)disk.f_bavail * disk.f_frsize;
         say(room < DISK_WANTED ? WARNING : GOOD, "data", "%s%s, %.1f GiB free", path,
             made ? "" : " (will be made)", (double)room / (1 << 30));
     }
@@ -193,7 +193,7 @@ static int check_store(const char *path)
 static int try_bind(const struct addrinfo *address)
 {
     int one = 1;
-    int fd = socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    const int fd = socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
 
     if (fd < 0) {
         return errno;
@@ -212,12 +212,12 @@ static int check_port(const char *host, const char *port)
     struct addrinfo hints = {.ai_socktype = SOCK_STREAM,
                              .ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE};
     struct addrinfo *address;
-    int status = getaddrinfo(host, port, &hints, &address);
+    const int status = getaddrinfo(host, port, &hints, &address);
 
     if (status != 0) {
         return say(BAD, "port", "%s: %s", host, gai_strerror(status));
     }
-    int failure = try_bind(address);
+    const int failure = try_bind(address);
     freeaddrinfo(address);
     if (failure == EADDRINUSE) {
         return say(BAD, "port", "%s port %s is in use, perhaps by another fieldcast", host, port);

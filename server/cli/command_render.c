@@ -37,7 +37,7 @@ static bool choose_format(const struct options *options, struct render_request *
                          "%s has no known extension; --format " CODEC_CHOICES " says what to write",
                          output);
     }
-    int outputs = option_int(options, OPTION_AOV);
+    const int outputs = option_int(options, OPTION_AOV);
     if ((outputs & (outputs - 1)) && dot && !zipped) {
         return error_set(err, ERROR_INVALID, "--output",
                          "%s holds one picture; several go into a .zip or .npz", output);
@@ -55,7 +55,7 @@ static bool read_members(const struct options *options, const struct record_type
     for (const struct param *param = type->params; ok && param->name; param++) {
         char name[64];
         snprintf(name, sizeof name, "%s%s", prefix, param->name);
-        enum option option = option_find(name);
+        const enum option option = option_find(name);
         const char *text = option == OPTION_COUNT ? NULL : option_text(options, option);
         ok = !text || render_request_set_text(out, REQUEST_OPTION, name, text, err);
     }
@@ -119,7 +119,7 @@ static bool write_picture(struct renderer *renderer, struct job *job,
         return false;
     }
     struct picture_file *file = picture_file_create(shapes, &params, writer.file, err);
-    bool ok = file && draw_rows(renderer, job, file, err);
+    const bool ok = file && draw_rows(renderer, job, file, err);
     picture_file_destroy(file);
     return file_writer_close(&writer, ok, err);
 }

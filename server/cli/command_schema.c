@@ -18,7 +18,7 @@ static char *schema_text(void)
 
 int command_schema(const struct options *options)
 {
-    bool reference = option_flag(options, OPTION_REFERENCE);
+    const bool reference = option_flag(options, OPTION_REFERENCE);
     char *text = reference ? reference_markdown() : schema_text();
 
     fputs(text, stdout);

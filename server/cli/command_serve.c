@@ -39,7 +39,7 @@ static char *read_token(const char *path, struct error *err)
         return NULL;
     }
     text[strcspn(text, "\r\n")] = '\0';
-    size_t bytes = strlen(text);
+    const size_t bytes = strlen(text);
     if (bytes >= TOKEN_MIN && bytes <= TOKEN_MAX &&
         strspn(text, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_.~") ==
             bytes) {
@@ -81,7 +81,7 @@ static int run(const struct options *options, struct serve_params *params)
                                        option_text(options, OPTION_TILE_TIME),
                                        NULL};
     params->worker_args = worker_args;
-    int status = serve(params);
+    const int status = serve(params);
     free(origins);
     free(origins_text);
     free(hosts);
@@ -114,7 +114,7 @@ int command_serve(const struct options *options)
         .code_refused = switch_find(option_text(options, OPTION_CODE)) == 0,
         .log_level = option_text(options, OPTION_LOG_LEVEL),
     };
-    int status = run(options, &params);
+    const int status = run(options, &params);
     free(token);
     return status;
 }

@@ -23,7 +23,7 @@ static char *read_all(int fd, const char *path, size_t limit, size_t *out_length
     char *text = memory_alloc(capacity, 1);
 
     for (;;) {
-        ssize_t got = read(fd, text + length, capacity - length - 1);
+        const ssize_t got = read(fd, text + length, capacity - length - 1);
         if (got < 0 && errno == EINTR) {
             continue;
         }
@@ -55,7 +55,7 @@ char *file_read(const char *path, size_t limit, size_t *out_length, struct error
     if (strcmp(path, "-") == 0) {
         return read_all(STDIN_FILENO, "stdin", limit, out_length, err);
     }
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    const int fd = open(path, O_RDONLY | O_CLOEXEC);
     if (fd < 0) {
         failed(path, err);
         return NULL;
@@ -90,9 +90,9 @@ static void writer_free(struct file_writer *writer)
 bool file_writer_open(struct file_writer *writer, const char *path, struct error *err)
 {
     *writer = (struct file_writer){.path = memory_text(path)};
-    int fd = strcmp(path, "-") == 0 ? fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)
-             : is_special(path)     ? open(path, O_WRONLY | O_CLOEXEC)
-                                    : open_temporary(writer);
+    const int fd = strcmp(path, "-") == 0 ? fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)
+                   : is_special(path)     ? open(path, O_WRONLY | O_CLOEXEC)
+                                          : open_temporary(writer);
     writer->file = fd < 0 ? NULL : fdopen(fd, "w");
     if (!writer->file) {
         failed(path, err);
@@ -105,7 +105,7 @@ bool file_writer_open(struct file_writer *writer, const char *path, struct error
 /* mkstemp makes files for the user alone; this one gets the mode that open() would give. */
 static bool finish_temporary(FILE *file)
 {
-    mode_t mask = umask(0);
+    const mode_t mask = umask(0);
 
     umask(mask);
     return fchmod(fileno(file), 0666 & ~mask) == 0 && fsync(fileno(file)) == 0;
@@ -150,7 +150,7 @@ bool directory_make(const char *path, struct error *err)
         if (*end != '/' && *end != '\0') {
             continue;
         }
-        char kept = *end;
+        const char kept = *end;
         *end = '\0';
         if (mkdir(copy, 0700) == 0) {
             directory_sync_parent(copy);

@@ -61,8 +61,8 @@ static bool give_file(struct renderer *renderer, const struct scene *scene, cons
     if (!bytes) {
         return false;
     }
-    bool ok = asset_inspect((const uint8_t *)bytes, length, &info, &inner) ||
-              error_set(err, inner.kind, path, "%s", inner.message);
+    const bool ok = asset_inspect((const uint8_t *)bytes, length, &info, &inner) ||
+                    error_set(err, inner.kind, path, "%s", inner.message);
     if (ok) {
         digest_text(bytes, length, id);
     }

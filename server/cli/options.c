@@ -374,8 +374,8 @@ static bool read_number(const struct option_row *row, const char *text, const ch
     char *stop;
 
     errno = 0;
-    double number = strtod(text, &stop);
-    int length = (int)(end - text);
+    const double number = strtod(text, &stop);
+    const int length = (int)(end - text);
     if (stop != end || length == 0 || isspace((unsigned char)*text) || !isfinite(number)) {
         return error_set(err, ERROR_INVALID, place, "'%.*s' is not a number", length, text);
     }
@@ -421,7 +421,7 @@ static bool read_word(const struct option_row *row, const char *text, size_t len
             *out = i;
             return true;
         }
-        size_t used = strlen(list);
+        const size_t used = strlen(list);
         snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", row->choice(i));
     }
     return error_set(err, ERROR_INVALID, place, "'%.*s' is none of %s", (int)length, text, list);
@@ -431,7 +431,7 @@ static bool read_choice(const struct option_row *row, const char *text, double *
                         const char *place, struct error *err)
 {
     size_t index;
-    bool ok = read_word(row, text, strlen(text), &index, place, err);
+    const bool ok = read_word(row, text, strlen(text), &index, place, err);
 
     *out = ok ? (double)index : 0;
     return ok;
@@ -459,7 +459,7 @@ static bool read_choices(const struct option_row *row, const char *text, double 
 
 static bool read_flag(const char *text, double *out, const char *place, struct error *err)
 {
-    bool yes = strcmp(text, "yes") == 0;
+    const bool yes = strcmp(text, "yes") == 0;
 
     if (!yes && strcmp(text, "no") != 0) {
         return error_set(err, ERROR_INVALID, place, "'%s' is neither yes nor no", text);
@@ -521,8 +521,8 @@ bool option_set(struct options *options, enum option option, const char *text,
     if (!read_value(row, text, value.number, place, err)) {
         return false;
     }
-    bool is_path = row->type == OPTION_PATH || row->type == OPTION_FILES;
-    bool at_home = is_path && text[0] == '~' && text[1] == '/';
+    const bool is_path = row->type == OPTION_PATH || row->type == OPTION_FILES;
+    const bool at_home = is_path && text[0] == '~' && text[1] == '/';
     value.text = at_home ? joined(home(), text + 2) : memory_text(text);
     if (row->type == OPTION_FILES) {
         value.text = appended(&options->values[option], source, value.text);

@@ -14,7 +14,7 @@ static void print_wrapped(FILE *out, const char *text, int column, int indent)
     const char *gap = "";
 
     while (*text) {
-        int word = (int)strcspn(text, " ");
+        const int word = (int)strcspn(text, " ");
         if (*gap && column + 1 + word > LINE) {
             fprintf(out, "\n%*s", indent, "");
             column = indent;
@@ -45,7 +45,7 @@ static void choice_words(const struct option_row *row, char *out, size_t size)
 {
     out[0] = '\0';
     for (size_t i = 0; row->choice && row->choice(i); i++) {
-        size_t used = strlen(out);
+        const size_t used = strlen(out);
         snprintf(out + used, size - used, "%s%s", i ? ", " : "", row->choice(i));
     }
 }

@@ -142,7 +142,7 @@ static int read_option(struct options *options, int argc, char **argv, struct er
     const char *argument = argv[0];
     const char *name = argument + (argument[1] == '-' ? 2 : 1);
     const char *equals = strchr(name, '=');
-    size_t length = equals ? (size_t)(equals - name) : strlen(name);
+    const size_t length = equals ? (size_t)(equals - name) : strlen(name);
     char place[64];
 
     snprintf(place, sizeof place, "%.*s", (int)(name - argument + (ptrdiff_t)length), argument);
@@ -177,7 +177,7 @@ static bool read_arguments(struct options *options, int argc, char **argv, struc
     options->operands = argv;
     bool only_operands = false;
     for (int i = 0; i < argc;) {
-        bool option = argv[i][0] == '-' && argv[i][1] != '\0' && !only_operands;
+        const bool option = argv[i][0] == '-' && argv[i][1] != '\0' && !only_operands;
         if (!option) {
             argv[options->operand_count++] = argv[i++];
             continue;
@@ -187,7 +187,7 @@ static bool read_arguments(struct options *options, int argc, char **argv, struc
             i++;
             continue;
         }
-        int taken = read_option(options, argc - i, argv + i, err);
+        const int taken = read_option(options, argc - i, argv + i, err);
         if (taken == 0) {
             return false;
         }
@@ -199,15 +199,15 @@ static bool read_arguments(struct options *options, int argc, char **argv, struc
 static bool check_operands(const struct options *options, struct error *err)
 {
     const struct command *command = options->command;
-    int count = options->operand_count;
+    const int count = options->operand_count;
 
     if (command->operands && (count == 0 || count < command->exactly)) {
         return error_set(err, ERROR_INVALID, command->name, "needs %s", command->operands);
     }
-    int most = !command->operands ? 0
-               : command->many    ? count
-               : command->exactly ? command->exactly
-                                  : 1;
+    const int most = !command->operands ? 0
+                     : command->many    ? count
+                     : command->exactly ? command->exactly
+                                        : 1;
     if (count > most) {
         return error_set(err, ERROR_INVALID, command->name, "does not take '%s'",
                          options->operands[most]);

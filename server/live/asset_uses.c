@@ -38,7 +38,7 @@ static void read_text(void *data, const char *scene, const char *text)
     static const char digits[] = "0123456789abcdef";
 
     while (*(text += strcspn(text, digits))) {
-        size_t length = strspn(text, digits);
+        const size_t length = strspn(text, digits);
 
         add(data, text, length, scene);
         text += length;

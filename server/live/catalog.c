@@ -13,7 +13,7 @@ static size_t position(const struct catalog *catalog, const char *id)
     size_t low = 0, high = catalog->count;
 
     while (low < high) {
-        size_t middle = low + (high - low) / 2;
+        const size_t middle = low + (high - low) / 2;
 
         if (strcmp(catalog->entries[middle]->id, id) < 0) {
             low = middle + 1;
@@ -41,7 +41,7 @@ void catalog_finish(struct catalog *catalog)
 
 struct catalog_entry *catalog_find(const struct catalog *catalog, const char *id)
 {
-    size_t at = position(catalog, id);
+    const size_t at = position(catalog, id);
 
     return at < catalog->count && strcmp(catalog->entries[at]->id, id) == 0 ? catalog->entries[at]
                                                                             : NULL;
@@ -49,7 +49,7 @@ struct catalog_entry *catalog_find(const struct catalog *catalog, const char *id
 
 static struct catalog_entry *insert(struct catalog *catalog, const char *id)
 {
-    size_t at = position(catalog, id);
+    const size_t at = position(catalog, id);
     struct catalog_entry *entry = memory_alloc(1, sizeof *entry);
 
     if (catalog->count == catalog->capacity) {
@@ -89,7 +89,7 @@ void catalog_remove(struct catalog *catalog, const char *id)
     if (!entry) {
         return;
     }
-    size_t at = position(catalog, id);
+    const size_t at = position(catalog, id);
     entry_destroy(entry);
     catalog->count--;
     memmove(catalog->entries + at, catalog->entries + at + 1,

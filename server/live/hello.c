@@ -80,9 +80,9 @@ static void send_welcome(struct session *session, const char *key)
 static void bring_up_to_date(struct session *session, const cJSON *hello)
 {
     struct room *room = session->room;
-    uint64_t known = (uint64_t)json_member_number(hello, "revision", 0);
-    bool resumes = strcmp(json_member_text(hello, "epoch", ""), room->epoch) == 0 &&
-                   known >= room->log_from && known <= room->revision && known > 0;
+    const uint64_t known = (uint64_t)json_member_number(hello, "revision", 0);
+    const bool resumes = strcmp(json_member_text(hello, "epoch", ""), room->epoch) == 0 &&
+                         known >= room->log_from && known <= room->revision && known > 0;
 
     if (!resumes) {
         session_say(session, room_document_message(room));

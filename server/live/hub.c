@@ -47,7 +47,7 @@ void hub_wait_until(struct hub *hub, pthread_cond_t *condition, int64_t until_us
 
 bool hub_id_is_valid(const char *id)
 {
-    size_t length = strlen(id);
+    const size_t length = strlen(id);
 
     return length > 0 && length <= LIMIT_ID_BYTES &&
            strspn(id, "abcdefghijklmnopqrstuvwxyz0123456789-") == length;

@@ -112,7 +112,7 @@ static bool on_down(void *data, const struct supervisor_end *end)
     hub_lock(hub);
     log_debug("hub", "worker down: %s", end->text);
     tell_lost(hub, end);
-    bool known = quarantine_worker_down(hub, end);
+    const bool known = quarantine_worker_down(hub, end);
     render_queue_worker_down(hub, end);
     hub_unlock(hub);
     return known;

@@ -54,7 +54,7 @@ static struct room *load_room(struct hub *hub, const char *id, struct error *err
 bool hub_has_scene(struct hub *hub, const char *id)
 {
     hub_lock(hub);
-    bool found = catalog_find(hub->catalog, id) != NULL;
+    const bool found = catalog_find(hub->catalog, id) != NULL;
     hub_unlock(hub);
     return found;
 }

@@ -221,7 +221,7 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
     struct room_work work = {0};
     const struct room_order order = {
         .change = change, .ops = ops, .heavy = room_edit_is_heavy(room, ops)};
-    enum room_outcome outcome = room_authors_check_number(room, change, out_revision, err);
+    const enum room_outcome outcome = room_authors_check_number(room, change, out_revision, err);
 
     if (outcome != ROOM_APPLIED) {
         return outcome;
@@ -276,7 +276,7 @@ enum room_outcome room_undo(struct room *room, const struct room_change *change,
 {
     struct history_move move = {0};
     struct room_work work = {0};
-    enum room_outcome outcome = room_authors_check_number(room, change, out_revision, err);
+    const enum room_outcome outcome = room_authors_check_number(room, change, out_revision, err);
 
     *out_skipped = NULL;
     if (outcome != ROOM_APPLIED) {
@@ -359,7 +359,7 @@ struct shared_buffer *room_changed_message(const struct room *room, uint64_t rev
                                            const char *client)
 {
     const struct room_entry *entry = room_entry_of(room, revision);
-    bool own = strcmp(entry->author, client) == 0;
+    const bool own = strcmp(entry->author, client) == 0;
 
     return message_changed(revision, entry->name, entry->ops, own ? entry->edit : 0);
 }

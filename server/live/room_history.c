@@ -35,7 +35,7 @@ static void forget_oldest(struct room *room)
 
 void room_history_add(struct room *room, const struct room_change *change, const char *ops)
 {
-    size_t length = strlen(ops);
+    const size_t length = strlen(ops);
 
     while (room->log_from + 1 < room->revision &&
            (room->revision - room->log_from > ROOM_LOG ||

@@ -145,7 +145,7 @@ static void refuse(struct session *session, const char *text, size_t length,
 {
     cJSON *json = json_parse(text, length, NULL);
     const char *type = json_member_text(json, "type", "");
-    double number = json_member_number(json, "edit", 0);
+    const double number = json_member_number(json, "edit", 0);
 
     hub_lock(session->hub);
     if (number >= 1 && (!strcmp(type, "edit") || !strcmp(type, "undo") || !strcmp(type, "redo"))) {

@@ -296,7 +296,8 @@ static double mixed(double known, double took)
 static void learn(struct session *session)
 {
     struct stream *stream = session->stream;
-    double took = (double)(clock_us() - stream->job_asked_us) * 1e3 / (double)stream->job_pixels;
+    const double took =
+        (double)(clock_us() - stream->job_asked_us) * 1e3 / (double)stream->job_pixels;
 
     stream->ns_per_pixel = mixed(stream->ns_per_pixel, took);
     session->room->ns_per_pixel = mixed(session->room->ns_per_pixel, took);
@@ -601,7 +602,7 @@ int64_t stream_pump(struct session *session, int64_t now_ms)
     if (!line_is_free(session, stage)) {
         return 0; /* session_next wakes */
     }
-    int64_t due = stream->changed_at + stage_rules[stage].after_ms;
+    const int64_t due = stream->changed_at + stage_rules[stage].after_ms;
     if (now_ms < due) {
         return due;
     }

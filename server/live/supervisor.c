@@ -161,7 +161,7 @@ static void send_chunks(struct supervisor *supervisor, struct chunk *chunk, stru
     *supervisor->end = chunk;
     supervisor->end = next ? &next->next : &chunk->next;
     chunks_write(supervisor);
-    bool rest = supervisor->first != NULL;
+    const bool rest = supervisor->first != NULL;
     pthread_mutex_unlock(&supervisor->lock);
     if (rest) {
         supervisor_wake(supervisor);
@@ -213,8 +213,8 @@ static bool spawn(struct supervisor *supervisor, int child_fd, int pulse_fd)
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &all);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    int result = posix_spawn(&supervisor->pid, "/proc/self/exe", &actions, &attributes,
-                             (char *const *)supervisor->params.argv, environ);
+    const int result = posix_spawn(&supervisor->pid, "/proc/self/exe", &actions, &attributes,
+                                   (char *const *)supervisor->params.argv, environ);
     posix_spawn_file_actions_destroy(&actions);
     posix_spawnattr_destroy(&attributes);
     if (result != 0) {
@@ -267,7 +267,7 @@ static void start(struct supervisor *supervisor)
     memcpy(pair, supervisor->spare[0], sizeof pair);
     memcpy(pulse, supervisor->spare[1], sizeof pulse);
     memset(supervisor->spare, -1, sizeof supervisor->spare);
-    bool ok = spawn(supervisor, pair[1], pulse[1]);
+    const bool ok = spawn(supervisor, pair[1], pulse[1]);
     close(pair[1]);
     close(pulse[1]);
     if (!ok) {
@@ -303,7 +303,7 @@ static void describe_exit(int status, enum crash_work crash, char *out, size_t s
 
 static void plan_restart(struct supervisor *supervisor)
 {
-    int64_t now = clock_ms();
+    const int64_t now = clock_ms();
 
     if (now - supervisor->started > STEADY_MS) {
         supervisor->backoff_ms = 0;
@@ -385,7 +385,7 @@ static void count_pong(struct supervisor *supervisor, const struct packet_pong *
                             {METRIC_PICTURES, pong->counters.pictures}};
 
     for (int i = 0; i < COUNTERS; i++) {
-        int64_t value = (int64_t)counters[i].value;
+        const int64_t value = (int64_t)counters[i].value;
 
         metric_add(supervisor->params.metrics, counters[i].metric, value - supervisor->counted[i]);
         supervisor->counted[i] = value;
@@ -426,7 +426,7 @@ static void receive_packet(struct supervisor *supervisor, const struct packet *p
 static bool receive(struct supervisor *supervisor)
 {
     uint8_t bytes[65536];
-    ssize_t got = recv(supervisor->fd, bytes, sizeof bytes, MSG_DONTWAIT);
+    const ssize_t got = recv(supervisor->fd, bytes, sizeof bytes, MSG_DONTWAIT);
     struct packet packet;
     int result;
 
@@ -491,10 +491,10 @@ static void watch_over(struct supervisor *supervisor, int64_t now)
 
 static int wait_ms(const struct supervisor *supervisor, int64_t tick)
 {
-    int64_t next = clock_earlier(tick, supervisor->fd < 0  ? supervisor->next_start
-                                       : supervisor->ready ? supervisor->next_ping
-                                                           : clock_ms() + PING_MS);
-    int64_t left = next - clock_ms();
+    const int64_t next = clock_earlier(tick, supervisor->fd < 0  ? supervisor->next_start
+                                             : supervisor->ready ? supervisor->next_ping
+                                                                 : clock_ms() + PING_MS);
+    const int64_t left = next - clock_ms();
 
     return left < 0 ? 0 : left > 1000 ? 1000 : (int)left;
 }
@@ -537,7 +537,7 @@ static void *run(void *data)
 
     while (!atomic_load(&supervisor->stopping)) {
         watch_over(supervisor, clock_ms());
-        int64_t tick = supervisor->params.on_tick(supervisor->params.data, clock_ms());
+        const int64_t tick = supervisor->params.on_tick(supervisor->params.data, clock_ms());
 
         wait_and_receive(supervisor, wait_ms(supervisor, tick));
     }

@@ -81,7 +81,7 @@ static void list_append(struct client_list *list, struct client *client)
 /* Forgets the client; its descriptor stays open. */
 static int release(struct acceptor *acceptor, struct client *client)
 {
-    int fd = client->fd;
+    const int fd = client->fd;
 
     epoll_ctl(acceptor->epoll, EPOLL_CTL_DEL, fd, NULL);
     list_remove(&acceptor->lists[client->state], client);
@@ -117,11 +117,11 @@ static void send_refusal(int fd, int status, const char *message)
                  "{\"type\":\"about:blank\",\"title\":\"%s\",\"status\":%d,"
                  "\"detail\":\"%s\",\"code\":\"%s\",\"place\":\"\"}\n",
                  status_title(status), status, message, status == 503 ? "unavailable" : "syntax");
-    int length = snprintf(reply, sizeof reply,
-                          "HTTP/1.1 %d %s\r\nContent-Type: application/problem+json\r\n"
-                          "Content-Length: %d\r\n%s%sConnection: close\r\n\r\n%s",
-                          status, status_title(status), body_length, safety,
-                          status == 503 ? "Retry-After: 1\r\n" : "", body);
+    const int length = snprintf(reply, sizeof reply,
+                                "HTTP/1.1 %d %s\r\nContent-Type: application/problem+json\r\n"
+                                "Content-Length: %d\r\n%s%sConnection: close\r\n\r\n%s",
+                                status, status_title(status), body_length, safety,
+                                status == 503 ? "Retry-After: 1\r\n" : "", body);
     if (send(fd, reply, (size_t)length, MSG_DONTWAIT | MSG_NOSIGNAL) < 0) {
         log_debug("acceptor", "a refusal could not be sent: %s", strerror(errno));
     }
@@ -132,7 +132,7 @@ static void send_refusal(int fd, int status, const char *message)
 static bool discard_input(struct acceptor *acceptor, int fd)
 {
     for (int i = 0; i < 16; i++) {
-        ssize_t got = recv(fd, acceptor->bytes, sizeof acceptor->bytes, MSG_DONTWAIT);
+        const ssize_t got = recv(fd, acceptor->bytes, sizeof acceptor->bytes, MSG_DONTWAIT);
 
         if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) {
             return true;
@@ -163,8 +163,8 @@ static void refuse(struct acceptor *acceptor, struct client *client, enum metric
 static void hand_over(struct acceptor *acceptor, struct client *client)
 {
     struct sockaddr_storage address = client->address;
-    socklen_t length = client->address_length;
-    int fd = release(acceptor, client);
+    const socklen_t length = client->address_length;
+    const int fd = release(acceptor, client);
 
     if (acceptor->events.upgrade(acceptor->events.data, fd, &acceptor->head)) {
         return;
@@ -215,7 +215,7 @@ static void look(struct acceptor *acceptor, struct client *client, bool ended)
         }
         return;
     }
-    long head = http_head_end(acceptor->bytes, (size_t)length, client->seen);
+    const long head = http_head_end(acceptor->bytes, (size_t)length, client->seen);
     client->seen = (size_t)length;
     if (head > 0) {
         decide(acceptor, client, (size_t)head);
@@ -233,7 +233,7 @@ static void look(struct acceptor *acceptor, struct client *client, bool ended)
 static void refuse_for_descriptors(struct acceptor *acceptor)
 {
     close(acceptor->reserve_fd);
-    int fd = accept4(acceptor->listener, NULL, NULL, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    const int fd = accept4(acceptor->listener, NULL, NULL, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (fd >= 0) {
         metric_add(acceptor->metrics, METRIC_CONNECTIONS_OVER_DESCRIPTORS, 1);
         send_refusal(fd, 503, "no descriptor is free");
@@ -280,8 +280,8 @@ static void accept_clients(struct acceptor *acceptor)
     for (int i = 0; i < 64; i++) {
         struct sockaddr_storage address;
         socklen_t length = sizeof address;
-        int fd = accept4(acceptor->listener, (struct sockaddr *)&address, &length,
-                         SOCK_NONBLOCK | SOCK_CLOEXEC);
+        const int fd = accept4(acceptor->listener, (struct sockaddr *)&address, &length,
+                               SOCK_NONBLOCK | SOCK_CLOEXEC);
 
         if (fd >= 0) {
             admit(acceptor, fd, &address, length);
@@ -295,7 +295,7 @@ static void accept_clients(struct acceptor *acceptor)
 
 static void expire(struct acceptor *acceptor)
 {
-    int64_t now = clock_ms();
+    const int64_t now = clock_ms();
     struct client *client;
 
     while ((client = acceptor->lists[WAITING].first) && client->deadline <= now) {
@@ -334,7 +334,7 @@ static int wait_ms(const struct acceptor *acceptor)
 
 static void handle(struct acceptor *acceptor, const struct epoll_event *event)
 {
-    bool ended = event->events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR);
+    const bool ended = event->events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR);
 
     if (event->data.ptr == &listener_mark) {
         accept_clients(acceptor);
@@ -357,7 +357,7 @@ static void *run(void *data)
     struct epoll_event events[64];
 
     for (;;) {
-        int count = epoll_wait(acceptor->epoll, events, 64, wait_ms(acceptor));
+        const int count = epoll_wait(acceptor->epoll, events, 64, wait_ms(acceptor));
 
         for (int i = 0; i < count; i++) {
             if (events[i].data.ptr == &stop_mark) {
@@ -385,11 +385,12 @@ static bool listen_on(struct acceptor *acceptor, const char *address, int port, 
         return error_set(err, ERROR_INVALID, address, "not an IPv4 or IPv6 address");
     }
     acceptor->listener = socket(info->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-    bool ok = acceptor->listener >= 0 &&
-              setsockopt(acceptor->listener, SOL_SOCKET, SO_REUSEADDR, &one, sizeof one) == 0 &&
-              bind(acceptor->listener, info->ai_addr, info->ai_addrlen) == 0 &&
-              listen(acceptor->listener, 1024) == 0 &&
-              getsockname(acceptor->listener, (struct sockaddr *)&bound, &length) == 0;
+    const bool ok =
+        acceptor->listener >= 0 &&
+        setsockopt(acceptor->listener, SOL_SOCKET, SO_REUSEADDR, &one, sizeof one) == 0 &&
+        bind(acceptor->listener, info->ai_addr, info->ai_addrlen) == 0 &&
+        listen(acceptor->listener, 1024) == 0 &&
+        getsockname(acceptor->listener, (struct sockaddr *)&bound, &length) == 0;
     freeaddrinfo(info);
     if (!ok) {
         return error_set(err, ERROR_UNAVAILABLE, address, "port %d cannot be listened on: %s", port,

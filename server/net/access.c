@@ -28,7 +28,7 @@ static size_t host_length(const char *authority)
 {
     const char *bracket = *authority == '[' ? strchr(authority, ']') : NULL;
     const char *end = bracket ? bracket + 1 : authority + strcspn(authority, ":");
-    bool is_port = *end == ':' && strspn(end + 1, "0123456789") == strlen(end + 1);
+    const bool is_port = *end == ':' && strspn(end + 1, "0123456789") == strlen(end + 1);
 
     return is_port ? (size_t)(end - authority) : strlen(authority);
 }
@@ -45,7 +45,7 @@ static bool host_allowed(const struct access *access, const char *host)
     if (!host) {
         return true; /* HTTP/1.0; a browser always sends one */
     }
-    size_t length = host_length(host);
+    const size_t length = host_length(host);
     if (is_listed(access->allowed_hosts, host, length) ||
         is_listed(access->allowed_hosts, host, strlen(host))) {
         return true;
@@ -74,7 +74,7 @@ static bool site_allowed(const struct access_request *request)
 /* Takes as long for every text of one length. */
 static bool is_equal(const char *given, size_t length, const char *secret)
 {
-    size_t wanted = strlen(secret);
+    const size_t wanted = strlen(secret);
     unsigned char difference = length != wanted;
 
     for (size_t i = 0; i < length; i++) {
@@ -85,11 +85,11 @@ static bool is_equal(const char *given, size_t length, const char *secret)
 
 static bool token_in_protocols(const char *list, const char *token)
 {
-    size_t prefix = sizeof token_subprotocol - 1;
+    const size_t prefix = sizeof token_subprotocol - 1;
 
     while (list && *list) {
         list += strspn(list, ", \t");
-        size_t length = strcspn(list, ", \t");
+        const size_t length = strcspn(list, ", \t");
 
         if (length > prefix && strncmp(list, token_subprotocol, prefix) == 0 &&
             is_equal(list + prefix, length - prefix, token)) {

@@ -253,7 +253,7 @@ void http_check_gone(struct http *http)
 
     http->app.lock(http->app.hub);
     pthread_mutex_lock(&http->lock);
-    int found = epoll_wait(http->gone_epoll, events, 16, 0);
+    const int found = epoll_wait(http->gone_epoll, events, 16, 0);
     for (int i = 0; i < found; i++) {
         struct exchange *exchange = events[i].data.ptr;
 
@@ -613,7 +613,7 @@ int http_count(const struct http *http)
 
 void http_drain(struct http *http, int wait_ms)
 {
-    int64_t end = clock_ms() + wait_ms;
+    const int64_t end = clock_ms() + wait_ms;
 
     while (atomic_load(&http->pending) > 0 && clock_ms() < end) {
         usleep(5000);

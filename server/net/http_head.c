@@ -51,7 +51,7 @@ static bool is_token(const char *text, size_t length)
 
 long http_head_end(const char *bytes, size_t length, size_t seen)
 {
-    size_t from = seen > 3 ? seen - 3 : 0;
+    const size_t from = seen > 3 ? seen - 3 : 0;
 
     for (size_t i = from; i < length; i++) {
         if (bytes[i] == 0 || (bytes[i] == '\n' && (i == 0 || bytes[i - 1] != '\r')) ||
@@ -135,7 +135,7 @@ bool http_head_field_check(const char *name, size_t name_length, const char *val
         return refuse(fault, 400, "a header name holds a character that none may hold");
     }
     for (size_t i = 0; i < value_length; i++) {
-        unsigned char c = (unsigned char)value[i];
+        const unsigned char c = (unsigned char)value[i];
 
         if ((c < ' ' && c != '\t') || c == 0x7f) {
             return refuse(fault, 400, "a header value holds a control character");
@@ -154,7 +154,7 @@ static bool store_field(struct http_head *head, const char *name, size_t name_le
         if (!is_name(name, name_length, rules[i].name)) {
             continue;
         }
-        size_t before = head->field[i] ? strlen(head->field[i]) + 2 : 0;
+        const size_t before = head->field[i] ? strlen(head->field[i]) + 2 : 0;
         if (before && !rules[i].list) {
             return refuse(fault, 400, "a header that may come once comes twice");
         }
@@ -190,7 +190,7 @@ static bool read_field(const char *line, size_t length, struct http_head *head,
     while (value < end && (*value == ' ' || *value == '\t')) {
         value++;
     }
-    size_t name_length = (size_t)(colon - line);
+    const size_t name_length = (size_t)(colon - line);
     if (!http_head_field_check(line, name_length, value, (size_t)(end - value), fault)) {
         return false;
     }
@@ -252,7 +252,7 @@ bool http_head_read(const char *bytes, size_t length, struct http_head *out,
         if (stop == line) {
             break;
         }
-        size_t size = (size_t)(stop - line);
+        const size_t size = (size_t)(stop - line);
         if (!(first ? read_request_line(line, size, out, fault)
                     : read_field(line, size, out, fault))) {
             return false;
@@ -268,11 +268,11 @@ bool http_head_read(const char *bytes, size_t length, struct http_head *out,
 
 bool http_head_list_has(const char *list, const char *token)
 {
-    size_t wanted = strlen(token);
+    const size_t wanted = strlen(token);
 
     while (list && *list) {
         list += strspn(list, ", \t");
-        size_t length = strcspn(list, ",");
+        const size_t length = strcspn(list, ",");
         size_t used = length;
 
         while (used && (list[used - 1] == ' ' || list[used - 1] == '\t')) {

@@ -28,8 +28,8 @@ static char *decode(const char *text, size_t length, bool plus_is_space)
         int c = (unsigned char)text[i];
 
         if (c == '%') {
-            int high = i + 2 < length ? hex_digit(text[i + 1]) : -1;
-            int low = i + 2 < length ? hex_digit(text[i + 2]) : -1;
+            const int high = i + 2 < length ? hex_digit(text[i + 1]) : -1;
+            const int low = i + 2 < length ? hex_digit(text[i + 2]) : -1;
             c = high < 0 || low < 0 ? 0 : high * 16 + low;
             i += 2;
         } else if (c == '+' && plus_is_space) {
@@ -47,7 +47,7 @@ static char *decode(const char *text, size_t length, bool plus_is_space)
 static bool add_query(struct request *request, const char *text, size_t length, struct error *err)
 {
     const char *equals = memchr(text, '=', length);
-    size_t name_length = equals ? (size_t)(equals - text) : length;
+    const size_t name_length = equals ? (size_t)(equals - text) : length;
 
     if (length == 0) {
         return true;
@@ -85,7 +85,7 @@ bool request_parse_target(struct request *request, const char *target, struct er
     }
     while (*query) {
         query++;
-        size_t length = strcspn(query, "&");
+        const size_t length = strcspn(query, "&");
 
         if (!add_query(request, query, length, err)) {
             return false;
@@ -142,11 +142,11 @@ bool request_check_query(const struct request *request, const char *const *names
 
 bool request_tag_listed(const char *list, const char *tag)
 {
-    size_t wanted = strlen(tag);
+    const size_t wanted = strlen(tag);
 
     while (list && *list) {
         list += strspn(list, ", \t");
-        size_t length = strcspn(list, ", \t");
+        const size_t length = strcspn(list, ", \t");
 
         if ((length == 1 && *list == '*') ||
             (length == wanted && strncmp(list, tag, wanted) == 0)) {

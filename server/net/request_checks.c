@@ -110,7 +110,7 @@ static bool is_json(const char *type)
     if (!type) {
         return true;
     }
-    size_t length = strcspn(type, "; \t");
+    const size_t length = strcspn(type, "; \t");
 
     return (length == 16 && strncasecmp(type, "application/json", 16) == 0) ||
            (length > 5 && strncasecmp(type, "application/", 12) == 0 &&
@@ -120,7 +120,7 @@ static bool is_json(const char *type)
 static bool check_body(const struct request *request, const struct route *route,
                        struct response *out)
 {
-    uint64_t length = request_checks_announced_bytes(request);
+    const uint64_t length = request_checks_announced_bytes(request);
     char detail[100];
 
     if (route->body == BODY_NONE && request_checks_has_body(request)) {
@@ -161,7 +161,7 @@ static bool check_access(const struct access *access, const struct request *requ
         .to_page = page && is_navigation(request),
     };
     struct error err = {0};
-    int status = access_check(access, &values, open, &err);
+    const int status = access_check(access, &values, open, &err);
 
     if (status) {
         *out = response_problem(status, status == 401 ? "unauthorized" : error_kind_name(err.kind),
@@ -194,9 +194,9 @@ bool request_checks_pass(const struct http_app *app, struct request *request, co
     }
     const struct route *route = route_find(app->routes, request, out);
     *out_route = route;
-    bool is_preflight = strcmp(request->method, "OPTIONS") == 0 &&
-                        request_header(request, "Origin") &&
-                        request_header(request, "Access-Control-Request-Method");
+    const bool is_preflight = strcmp(request->method, "OPTIONS") == 0 &&
+                              request_header(request, "Origin") &&
+                              request_header(request, "Access-Control-Request-Method");
     struct response refusal;
     if (!check_access(app->access, request, is_preflight || (route && route->access != GUARDED),
                       route && route->access == PAGE, &refusal)) {

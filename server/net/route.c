@@ -37,7 +37,7 @@ static bool method_fits(const struct route *route, const char *method)
 
 static void add_method(char *list, size_t size, const char *method)
 {
-    size_t used = strlen(list);
+    const size_t used = strlen(list);
 
     snprintf(list + used, size - used, "%s%s", used ? ", " : "", method);
 }
@@ -61,7 +61,8 @@ const struct route *route_find(const struct route_table *table, struct request *
             add_method(allowed, sizeof allowed, "HEAD");
         }
     }
-    bool under_api = strncmp(request->path, "/v1/", 4) == 0 || strcmp(request->path, "*") == 0;
+    const bool under_api =
+        strncmp(request->path, "/v1/", 4) == 0 || strcmp(request->path, "*") == 0;
     if (!*allowed && !under_api && method_fits(table->file, request->method)) {
         return table->file;
     }

@@ -95,7 +95,7 @@ uint32_t send_queue_frame(struct send_queue *queue, const struct frame_header *h
         send_queue_skip(queue, slot->chain);
     }
     queue->linked |= bit_of(header->chain);
-    uint32_t given_up = slot->payload ? slot->number : 0;
+    const uint32_t given_up = slot->payload ? slot->number : 0;
     frame_clear(slot);
     frame_header_pack(header, slot->header);
     slot->payload = shared_buffer_ref(payload);
@@ -126,7 +126,7 @@ bool send_queue_has_frame(const struct send_queue *queue, bool *out_precious)
 static void next_text(struct send_queue *queue, uint8_t *out, struct send_queue_piece *piece)
 {
     const struct shared_buffer *text = queue->first->text;
-    size_t left = text->length - queue->text_offset;
+    const size_t left = text->length - queue->text_offset;
     size_t length = left < SEND_QUEUE_PART_BYTES ? left : SEND_QUEUE_PART_BYTES;
 
     memcpy(out, text->bytes + queue->text_offset, length);
@@ -143,8 +143,8 @@ static void next_text(struct send_queue *queue, uint8_t *out, struct send_queue_
 static void next_frame_part(struct send_queue *queue, uint8_t *out, struct send_queue_piece *piece)
 {
     struct send_queue_frame *frame = &queue->current;
-    size_t head = frame->begun ? FRAME_PART_HEADER_BYTES : FRAME_HEADER_BYTES;
-    size_t left = frame->payload->length - frame->sent;
+    const size_t head = frame->begun ? FRAME_PART_HEADER_BYTES : FRAME_HEADER_BYTES;
+    const size_t left = frame->payload->length - frame->sent;
     size_t length = left < SEND_QUEUE_PART_BYTES ? left : SEND_QUEUE_PART_BYTES;
 
     if (frame->begun) {

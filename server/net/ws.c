@@ -122,7 +122,7 @@ static void adopt_waiting(struct ws *ws)
     pthread_mutex_unlock(&ws->lock);
     while (link) {
         struct link *next = link->next;
-        int fd = link->fd;
+        const int fd = link->fd;
 
         link->next = NULL;
         ws->adopting = link;
@@ -295,7 +295,7 @@ static int on_receive(struct link *link, const char *bytes, size_t length)
     if (link->length + length + lws_remaining_packet_payload(wsi) > LIMIT_MESSAGE_BYTES) {
         return close_with(link, CLOSE_TOO_BIG);
     }
-    bool more = lws_remaining_packet_payload(wsi) || !lws_is_final_fragment(wsi);
+    const bool more = lws_remaining_packet_payload(wsi) || !lws_is_final_fragment(wsi);
     if (!utf8_feed(&link->utf8, bytes, length) || (!more && link->utf8.left > 0)) {
         return close_with(link, CLOSE_NOT_TEXT);
     }
@@ -330,9 +330,9 @@ static void on_timer(struct link *link)
 
 static enum lws_write_protocol write_mode(const struct send_queue_piece *piece)
 {
-    int mode = !piece->first                    ? LWS_WRITE_CONTINUATION
-               : piece->kind == SEND_QUEUE_TEXT ? LWS_WRITE_TEXT
-                                                : LWS_WRITE_BINARY;
+    const int mode = !piece->first                    ? LWS_WRITE_CONTINUATION
+                     : piece->kind == SEND_QUEUE_TEXT ? LWS_WRITE_TEXT
+                                                      : LWS_WRITE_BINARY;
 
     return (enum lws_write_protocol)(mode | (piece->last ? 0 : LWS_WRITE_NO_FIN));
 }
@@ -387,7 +387,7 @@ static int on_writeable(struct link *link)
         return write_close(link, link->close_code);
     }
     for (int i = 0; i < PIECES_PER_TURN && link->session; i++) {
-        int result = write_piece(link);
+        const int result = write_piece(link);
 
         if (result <= 0) {
             return result;
@@ -402,7 +402,7 @@ static int on_writeable(struct link *link)
 
 static void on_kicked(struct ws *ws)
 {
-    bool draining = atomic_load(&ws->draining);
+    const bool draining = atomic_load(&ws->draining);
 
     atomic_store(&ws->kicked, false);
     adopt_waiting(ws);
@@ -537,7 +537,7 @@ int ws_count(const struct ws *ws)
 
 void ws_drain(struct ws *ws, int wait_ms)
 {
-    int64_t end = clock_ms() + wait_ms;
+    const int64_t end = clock_ms() + wait_ms;
 
     atomic_store(&ws->draining, true);
     do {

@@ -250,7 +250,7 @@ void assets_delete(struct request *request)
     struct error err = {0};
 
     hub_lock(hub);
-    bool ok = check_removal(hub, id, NULL, &err);
+    const bool ok = check_removal(hub, id, NULL, &err);
     hub_unlock(hub);
     if (ok && asset_uses_read(hub, &names, &err)) {
         hub_lock(hub);

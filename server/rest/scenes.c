@@ -448,7 +448,7 @@ void scenes_delete(struct request *request)
         request_reply_error(request, &err);
         return;
     }
-    bool ok = check_match(request, room, &err);
+    const bool ok = check_match(request, room, &err);
     if (ok) {
         hub_delete_room(request->hub, room, answer_change,
                         wait_for(request, 204, request->capture[0]));

@@ -77,7 +77,7 @@ static char *read_below(const char *directory, const char *path, size_t *out_len
         strncmp(real, root, strlen(root)) != 0 || real[strlen(root)] != '/') {
         return NULL;
     }
-    int fd = open(real, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const int fd = open(real, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (fd >= 0 && fstat(fd, &status) == 0 && S_ISREG(status.st_mode) &&
         status.st_size <= WEB_FILE_BYTES) {
         bytes = memory_alloc((size_t)status.st_size + 1, 1);
@@ -340,7 +340,7 @@ void site_ready(struct request *request)
     struct renderer_info info;
 
     hub_lock(hub);
-    bool ready = hub->render_queue->ready;
+    const bool ready = hub->render_queue->ready;
     info = hub->renderer;
     hub_unlock(hub);
     const char *damage = store_damage(hub->store);

@@ -122,7 +122,7 @@ static void *run(void *data)
         pthread_mutex_unlock(&store->lock);
 
         commit_batch(store, batch);
-        uint64_t count = tell_batch(batch);
+        const uint64_t count = tell_batch(batch);
 
         pthread_mutex_lock(&store->lock);
         store->told += count;
@@ -302,7 +302,7 @@ void store_push_all(struct store *store, struct store_write *first)
 void store_flush(struct store *store)
 {
     pthread_mutex_lock(&store->lock);
-    uint64_t wanted = store->pushed;
+    const uint64_t wanted = store->pushed;
     while (store->told < wanted) {
         pthread_cond_wait(&store->changed, &store->lock);
     }

@@ -331,7 +331,7 @@ static bool run_statement(struct store_sqlite *db, int which, const struct store
     if (write->asset) {
         bind_asset(statement, write->asset);
     }
-    bool ok = sqlite3_step(statement) == SQLITE_DONE;
+    const bool ok = sqlite3_step(statement) == SQLITE_DONE;
     if (!ok) {
         error_set(err, ERROR_INTERNAL, write->scene, "revision %llu: %s",
                   (unsigned long long)write->revision, sqlite3_errmsg(db->writer));

@@ -72,8 +72,8 @@ bool store_sqlite_list(struct store_sqlite *db,
     struct list_call call = {each, data};
 
     pthread_mutex_lock(&db->read_lock);
-    bool ok = query(db, "SELECT id, name, revision, nodes, modified FROM scenes ORDER BY id", "", 0,
-                    list_row, &call, err);
+    const bool ok = query(db, "SELECT id, name, revision, nodes, modified FROM scenes ORDER BY id",
+                          "", 0, list_row, &call, err);
     pthread_mutex_unlock(&db->read_lock);
     return ok;
 }
@@ -141,12 +141,12 @@ static void turn_round(struct store_edit *edits, size_t count)
 static bool load_past(struct store_sqlite *db, const char *scene, struct store_loaded *out,
                       struct error *err)
 {
-    bool ok = query(db,
-                    "SELECT e.revision, e.author, e.edit, e.ops, e.kind, e.undo, e.redo,"
-                    " e.step, e.label, e.inverse FROM edits e JOIN scenes s ON s.id=e.scene"
-                    " WHERE e.scene=?1 AND e.revision>s.replaced AND e.inverse<>''"
-                    " ORDER BY e.revision DESC LIMIT ?2",
-                    scene, STORE_PAST, past_row, out, err);
+    const bool ok = query(db,
+                          "SELECT e.revision, e.author, e.edit, e.ops, e.kind, e.undo, e.redo,"
+                          " e.step, e.label, e.inverse FROM edits e JOIN scenes s ON s.id=e.scene"
+                          " WHERE e.scene=?1 AND e.revision>s.replaced AND e.inverse<>''"
+                          " ORDER BY e.revision DESC LIMIT ?2",
+                          scene, STORE_PAST, past_row, out, err);
 
     turn_round(out->past, out->past_count);
     return ok;
@@ -194,7 +194,8 @@ bool store_sqlite_load(struct store_sqlite *db, const char *scene, struct store_
     memset(out, 0, sizeof *out);
     pthread_mutex_lock(&db->read_lock);
     /* One transaction: the three queries see one state. */
-    bool ok = store_sqlite_execute(db->reader, "BEGIN", err) && load_rows(db, scene, out, err);
+    const bool ok =
+        store_sqlite_execute(db->reader, "BEGIN", err) && load_rows(db, scene, out, err);
     store_sqlite_execute(db->reader, "COMMIT", NULL);
     pthread_mutex_unlock(&db->read_lock);
     if (!ok) {
@@ -243,12 +244,12 @@ bool store_sqlite_list_texts(struct store_sqlite *db,
     struct text_call call = {each, data};
 
     pthread_mutex_lock(&db->scan_lock);
-    bool ok = query_on(db->scanner,
-                       "SELECT scene, document FROM snapshots AS s WHERE revision ="
-                       " (SELECT max(revision) FROM snapshots WHERE scene = s.scene)"
-                       " UNION ALL SELECT scene, ops FROM edits AS e WHERE revision >"
-                       " (SELECT max(revision) FROM snapshots WHERE scene = e.scene)",
-                       "", 0, text_row, &call, err);
+    const bool ok = query_on(db->scanner,
+                             "SELECT scene, document FROM snapshots AS s WHERE revision ="
+                             " (SELECT max(revision) FROM snapshots WHERE scene = s.scene)"
+                             " UNION ALL SELECT scene, ops FROM edits AS e WHERE revision >"
+                             " (SELECT max(revision) FROM snapshots WHERE scene = e.scene)",
+                             "", 0, text_row, &call, err);
     pthread_mutex_unlock(&db->scan_lock);
     return ok;
 }
@@ -282,8 +283,9 @@ bool store_sqlite_list_library(struct store_sqlite *db,
     struct entry_call call = {each, data};
 
     pthread_mutex_lock(&db->read_lock);
-    bool ok = query(db, "SELECT id, kind, name, nodes, modified, document FROM library ORDER BY id",
-                    "", 0, entry_row, &call, err);
+    const bool ok =
+        query(db, "SELECT id, kind, name, nodes, modified, document FROM library ORDER BY id", "",
+              0, entry_row, &call, err);
     pthread_mutex_unlock(&db->read_lock);
     return ok;
 }
@@ -316,8 +318,9 @@ bool store_sqlite_list_assets(struct store_sqlite *db,
     struct asset_call call = {each, data};
 
     pthread_mutex_lock(&db->read_lock);
-    bool ok = query(db, "SELECT id, type, width, height, length(bytes) FROM assets ORDER BY rowid",
-                    "", 0, asset_row, &call, err);
+    const bool ok =
+        query(db, "SELECT id, type, width, height, length(bytes) FROM assets ORDER BY rowid", "", 0,
+              asset_row, &call, err);
     pthread_mutex_unlock(&db->read_lock);
     return ok;
 }

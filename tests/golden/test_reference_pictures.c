@@ -114,7 +114,7 @@ static void every_example_has_its_card(void **state)
         const struct embedded *card = cards_find(examples_table[i].path);
 
         assert_non_null(card);
-        double mean = difference(&examples_table[i], card, 0);
+        const double mean = difference(&examples_table[i], card, 0);
         progress("%s: %.2f", examples_table[i].path, mean);
         if (mean > CARD_MEAN) {
             fail_msg("the card of %s differs by %.2f on average: make pictures draws it anew",

@@ -114,7 +114,10 @@ static const char *vector_type(struct shape shape)
                                            {"", "int", "ivec2", "ivec3", "ivec4"},
                                            {"", "uint", "uvec2", "uvec3", "uvec4"},
                                            {"", "bool", "bvec2", "bvec3", "bvec4"}};
-    int base = shape.base[0] == 'f' ? 0 : shape.base[0] == 'i' ? 1 : shape.base[0] == 'u' ? 2 : 3;
+    const int base = shape.base[0] == 'f'   ? 0
+                     : shape.base[0] == 'i' ? 1
+                     : shape.base[0] == 'u' ? 2
+                                            : 3;
 
     return types[base][shape.rows];
 }
@@ -173,7 +176,7 @@ static void add_matrices(struct code_batch *batch, const struct builtin *row, in
     char *text = NULL;
     size_t length;
     FILE *out = open_memstream(&text, &length);
-    bool number = row->family == FAMILY_DETERMINANT, vector = row->family == FAMILY_OUTER;
+    const bool number = row->family == FAMILY_DETERMINANT, vector = row->family == FAMILY_OUTER;
 
     fputs("float sdf(vec3 p) { ", out);
     if (number) {

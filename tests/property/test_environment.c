@@ -168,7 +168,7 @@ static double random_one(void)
 
 static void random_direction(double out[3])
 {
-    double z = 2 * random_one() - 1, angle = 6.283185307 * random_one(), r = sqrt(1 - z * z);
+    const double z = 2 * random_one() - 1, angle = 6.283185307 * random_one(), r = sqrt(1 - z * z);
 
     out[0] = r * cos(angle);
     out[1] = z;
@@ -178,7 +178,8 @@ static void random_direction(double out[3])
 /* The direction in the middle of a pixel, by the words of glsl/sky.glsl. */
 static void pixel_direction(int x, int y, double out[3])
 {
-    double longitude = ((x + 0.5) / WIDTH - 0.5) * 2 * M_PI, latitude = (y + 0.5) / HEIGHT * M_PI;
+    const double longitude = ((x + 0.5) / WIDTH - 0.5) * 2 * M_PI,
+                 latitude = (y + 0.5) / HEIGHT * M_PI;
 
     out[0] = sin(latitude) * sin(longitude);
     out[1] = cos(latitude);
@@ -286,7 +287,7 @@ static double lobe(double roughness, const double n[3], const double towards[3])
     for (int i = 0; i < 3; i++) {
         c += n[i] * h[i] / sqrt(length);
     }
-    double peak = c * c * (a2 - 1) + 1;
+    const double peak = c * c * (a2 - 1) + 1;
     return l * a2 / (peak * peak);
 }
 
@@ -446,7 +447,7 @@ static double let_through(double density, double thinning, double base, double y
     double sum = 0;
 
     for (int i = 0; i < STEPS; i++) {
-        double height = y + slope * way * (i + 0.5) / STEPS - base;
+        const double height = y + slope * way * (i + 0.5) / STEPS - base;
         sum += density * exp(-thinning * height) * way / STEPS;
     }
     return exp(-sum);

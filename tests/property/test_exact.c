@@ -38,7 +38,7 @@ static void make_odd(struct random *random, const struct node_type *type, double
     size_t count = 0;
 
     for (const struct param *param = type->record.params; param->name; param++) {
-        int components = param_components(param->type);
+        const int components = param_components(param->type);
         for (int i = 0; i < components && param->unit == UNIT_LENGTH; i++) {
             may_be_zero[count] = !param->above_min;
             lengths[count++] = n + i;
@@ -48,8 +48,8 @@ static void make_odd(struct random *random, const struct node_type *type, double
     if (count == 0) {
         return;
     }
-    size_t which = random_below(random, count);
-    double other = fabs(*lengths[random_below(random, count)]);
+    const size_t which = random_below(random, count);
+    const double other = fabs(*lengths[random_below(random, count)]);
     switch (random_below(random, 3)) {
     case 0:
         *lengths[which] = other > 0 ? other : *lengths[which];
@@ -147,8 +147,8 @@ static double between(const double p[3], const double q[3])
 static void random_near(struct random *random, const struct shape *shape, double out[3])
 {
     for (int i = 0; i < 3; i++) {
-        double low = fmax(shape->box.low[i], -REACH), high = fmin(shape->box.high[i], REACH);
-        double room = 0.1 * (high - low) + 0.05;
+        const double low = fmax(shape->box.low[i], -REACH), high = fmin(shape->box.high[i], REACH);
+        const double room = 0.1 * (high - low) + 0.05;
         out[i] = random_between(random, low - room, high + room);
     }
 }
@@ -157,7 +157,7 @@ static void random_near(struct random *random, const struct shape *shape, double
 static void to_surface(const struct shape *shape, const double p[3], double q[3])
 {
     double near[3] = {p[0], p[1], p[2]};
-    bool in = inside(shape, p);
+    const bool in = inside(shape, p);
 
     for (int i = 0; i < 40 && between(near, q) > 1e-7; i++) {
         double middle[3];
@@ -216,7 +216,7 @@ static void add_feet(struct random *random, const struct shape *shape, struct cl
         double p[3], q[3], direction[3];
         random_near(random, shape, p);
         for (int step = 0; step < 6; step++) {
-            double d = distance(shape, p);
+            const double d = distance(shape, p);
             if (fabs(d) < 1e-9 || !gradient(shape, p, direction)) {
                 break;
             }
@@ -241,7 +241,7 @@ static double look_around(struct random *random, const struct shape *shape, cons
 {
     double best[3] = {q[0], q[1], q[2]}, spread = 0.3;
     double nearest = between(p, best);
-    bool in = inside(shape, p);
+    const bool in = inside(shape, p);
 
     for (int i = 0; i < LOOKS && spread > 1e-4; i++) {
         double offset[3], turned[3], there[3], length = 0;
@@ -272,7 +272,7 @@ static double nearest_of(struct random *random, const struct shape *shape,
     size_t count = 0;
 
     for (size_t i = 0; i < cloud->count; i++) {
-        double d = between(p, cloud->points[i]);
+        const double d = between(p, cloud->points[i]);
         if (count == NEAREST && d >= distances[count - 1]) {
             continue;
         }
@@ -284,7 +284,7 @@ static double nearest_of(struct random *random, const struct shape *shape,
         distances[at] = d;
         order[at] = i;
     }
-    bool in = inside(shape, p);
+    const bool in = inside(shape, p);
     for (size_t i = 0; i < count; i++) {
         double q[3];
         along(p, (const double[3]){0, 0, 0}, 0, q);
@@ -292,7 +292,8 @@ static double nearest_of(struct random *random, const struct shape *shape,
             /* A point of the surface is on one side or the other. */
             q[j] += (cloud->points[order[i]][j] - p[j]) * (1 + 1e-4);
         }
-        double there = inside(shape, q) != in ? look_around(random, shape, p, q) : distances[i];
+        const double there =
+            inside(shape, q) != in ? look_around(random, shape, p, q) : distances[i];
         nearest = fmin(nearest, there);
     }
     return nearest;
@@ -317,7 +318,7 @@ static bool other_side_near(struct random *random, const struct shape *shape, co
  * gradient is better known; edges may be as sharp as needles. */
 static bool is_reached(struct random *random, const struct shape *shape, const double p[3])
 {
-    bool in = inside(shape, p);
+    const bool in = inside(shape, p);
 
     for (int i = 0; i < 12; i++) {
         double q[3], direction[3];
@@ -338,17 +339,18 @@ static bool is_reached(struct random *random, const struct shape *shape, const d
 static void check_point(struct random *random, const struct shape *shape, const struct cloud *cloud,
                         const double p[3])
 {
-    double d = distance(shape, p);
+    const double d = distance(shape, p);
 
     if (fabs(d) > 1e-7 && inside(shape, p) != (d < 0)) {
         fail_at(shape, "has the wrong sign", p, d, 0);
     }
-    double nearest = nearest_of(random, shape, cloud, p);
+    const double nearest = nearest_of(random, shape, cloud, p);
     if (fabs(d) > nearest + TOLERANCE) {
         fail_at(shape, "overstates", p, d, nearest);
     }
-    bool bound = shape->type->exactness == BOUND || (d < 0 && is_bent(shape->type, shape->raw)) ||
-                 inside_oracle_hollow(shape->type->record.name, shape->raw);
+    const bool bound = shape->type->exactness == BOUND ||
+                       (d < 0 && is_bent(shape->type, shape->raw)) ||
+                       inside_oracle_hollow(shape->type->record.name, shape->raw);
     if (!bound && fabs(d) < nearest - TOLERANCE && !is_reached(random, shape, p)) {
         fail_at(shape, "understates", p, d, nearest);
     }

@@ -18,7 +18,7 @@ static double distance_of(const char *root, double x, double y, double z)
 {
     const double p[3] = {x, y, z};
     struct pair pair = pair_of(root, "");
-    double d = field_distance(pair.field, p);
+    const double d = field_distance(pair.field, p);
 
     pair_finish(&pair);
     return d;
@@ -127,7 +127,7 @@ static void nothing_is_empty_space(void **state)
         {"{'type':'group','visible':false,'children':[" BALL("") "]}", FAR_AWAY},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        double got = distance_of(cases[i].root, 0, 0, 0);
+        const double got = distance_of(cases[i].root, 0, 0, 0);
         if (got != cases[i].at_origin) {
             fail_msg("%s: %g", cases[i].root, got);
         }
@@ -195,14 +195,14 @@ static void repetition_is_copies(void **state)
         struct pair a = pair_of(repeat, MATERIALS);
         struct pair b = explicit_copies(child, spacing, count, window);
         /* Were all cells looked at that the child reaches into? */
-        bool all = a.field->loop_trips < SDF_REPEAT_CELLS_MAX - 25;
+        const bool all = a.field->loop_trips < SDF_REPEAT_CELLS_MAX - 25;
         checked += all;
         for (int k = 0; k < 200 && all; k++) {
             double p[3], limit = 1.5; /* well inside the window of endless axes */
             for (int i = 0; i < 3; i++) {
                 p[i] = random_between(&random, -limit, limit);
             }
-            double want = field_distance(b.field, p), got = field_distance(a.field, p);
+            const double want = field_distance(b.field, p), got = field_distance(a.field, p);
             if (fabs(want - got) > 1e-5) {
                 fail_msg("%g instead of %g at %g %g %g\n%s", got, want, p[0], p[1], p[2], repeat);
             }
@@ -256,8 +256,9 @@ static void twist_is_a_bound(void **state)
     struct random random = {22};
 
     for (int round = 0; round < 40; round++) {
-        double rate = random_between(&random, -3, 3), height = random_between(&random, 0.5, 3);
-        double width = random_between(&random, 0.3, 2);
+        const double rate = random_between(&random, -3, 3),
+                     height = random_between(&random, 0.5, 3);
+        const double width = random_between(&random, 0.3, 2);
         char *root;
         if (asprintf(&root,
                      "{'type':'twist','params':{'rate':%.17g},'children':[{'type':"
@@ -272,7 +273,7 @@ static void twist_is_a_bound(void **state)
                            random_between(&random, -0.5, 0.5)};
             q[i % 3] = i % 2 ? 0.5 : -0.5;
             q[0] *= width, q[1] *= height, q[2] *= 0.4;
-            double c = cos(rate * q[1]), s = sin(rate * q[1]); /* right-handed about +Y */
+            const double c = cos(rate * q[1]), s = sin(rate * q[1]); /* right-handed about +Y */
             surface[i][0] = c * q[0] + s * q[2];
             surface[i][1] = q[1];
             surface[i][2] = -s * q[0] + c * q[2];
@@ -318,7 +319,7 @@ static void guards_change_no_surface(void **state)
     char text[4096] = "{'type':'union','children':[" BALL("");
 
     for (int i = 1; i < 6; i++) {
-        size_t used = strlen(text);
+        const size_t used = strlen(text);
         snprintf(text + used, sizeof text - used,
                  ",{'type':'repeat','params':{'spacing':[1,0.8,1],'count':[0,3,0]},"
                  "'transform':{'translation':[%d,0,%d],'rotation':[0,0,0.3]},"
@@ -339,8 +340,9 @@ static void guards_change_no_surface(void **state)
         double want = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) - 1;
         for (int i = 1; i < 6; i++) {
             for (int copy = -1; copy <= 1; copy++) {
-                double x = p[0] - 2 * i + 0.8 * copy * sin(0.3), y = p[1] - 0.8 * copy * cos(0.3);
-                double z = p[2] - i % 2;
+                const double x = p[0] - 2 * i + 0.8 * copy * sin(0.3),
+                             y = p[1] - 0.8 * copy * cos(0.3);
+                const double z = p[2] - i % 2;
                 want = fmin(want, sqrt(x * x + y * y + z * z) - 0.4);
             }
         }
@@ -385,7 +387,7 @@ static void materials_mix_by_the_derivative(void **state)
     for (int i = 0; i < 3; i++) {
         const struct sdf *sdf = sdf_find(node_type_find(types[i]));
         for (int k = 0; k < 10000; k++) {
-            double a = random_between(&random, -1, 1), b = random_between(&random, -1, 1);
+            const double a = random_between(&random, -1, 1), b = random_between(&random, -1, 1);
             double n[2] = {random_between(&random, 0.1, 1)}, share, ignored, h = 1e-6;
             sdf->combine(a, b, n, &share);
             double by_b =
@@ -432,8 +434,8 @@ static void rays_stop_at_surfaces(void **state)
     struct pair pair =
         pair_of("{'type':'difference','children':[" BOX "," BALL(AT(0, 0, 1)) "]}", "");
     const double origin[3] = {0.25, 0.125, 9}, forward[3] = {0, 0, -1}, away[3] = {0, 0, 1};
-    double t = field_march(pair.field, origin, forward, 100, 1e-9);
-    double dent = 1 - sqrt(1 - 0.25 * 0.25 - 0.125 * 0.125);
+    const double t = field_march(pair.field, origin, forward, 100, 1e-9);
+    const double dent = 1 - sqrt(1 - 0.25 * 0.25 - 0.125 * 0.125);
 
     assert_near(t, 9 - dent);
     assert_near(field_march(pair.field, origin, forward, 8, 1e-9), -1);

@@ -44,7 +44,7 @@ static void numbers_lie_where_the_header_says(void **state)
         2,        4,   0,     -1,  0,    1,
         2,        3,   4,     5,   6,    7,
     };
-    size_t own = sizeof want / sizeof want[0];
+    const size_t own = sizeof want / sizeof want[0];
 
     for (size_t i = 0; i < own; i++) {
         if (field->params[i] != want[i]) {

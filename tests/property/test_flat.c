@@ -35,8 +35,8 @@ static bool in_round_rectangle(const double p[2], const double *n)
     double radius = fmin(n[2], fmin(n[0], n[1]) / 2), sum = 0;
 
     for (int i = 0; i < 2; i++) {
-        double core = n[i] / 2 - radius;
-        double nearest = p[i] < -core ? -core : p[i] > core ? core : p[i];
+        const double core = n[i] / 2 - radius;
+        const double nearest = p[i] < -core ? -core : p[i] > core ? core : p[i];
         sum += (p[i] - nearest) * (p[i] - nearest);
     }
     return sum <= radius * radius; /* may be 0 */
@@ -45,9 +45,9 @@ static bool in_round_rectangle(const double p[2], const double *n)
 /* Barycentric coordinates above 0. */
 static bool in_triangle2(const double p[2], const double *n)
 {
-    double ux = n[2] - n[0], uy = n[3] - n[1], vx = n[4] - n[0], vy = n[5] - n[1];
-    double x = p[0] - n[0], y = p[1] - n[1], area = ux * vy - uy * vx;
-    double s = (x * vy - y * vx) / area, t = (ux * y - uy * x) / area;
+    const double ux = n[2] - n[0], uy = n[3] - n[1], vx = n[4] - n[0], vy = n[5] - n[1];
+    const double x = p[0] - n[0], y = p[1] - n[1], area = ux * vy - uy * vx;
+    const double s = (x * vy - y * vx) / area, t = (ux * y - uy * x) / area;
 
     return s > 0 && t > 0 && s + t < 1;
 }
@@ -59,7 +59,7 @@ static bool in_corners(const double p[2], const double *corners, int count)
 
     for (int i = 0; i < count; i++) {
         const double *a = corners + 2 * i, *b = corners + 2 * ((i + 1) % count);
-        double ax = a[0] - p[0], ay = a[1] - p[1], bx = b[0] - p[0], by = b[1] - p[1];
+        const double ax = a[0] - p[0], ay = a[1] - p[1], bx = b[0] - p[0], by = b[1] - p[1];
         sum += atan2(ax * by - ay * bx, ax * bx + ay * by);
     }
     return fabs(sum) > PI;
@@ -75,7 +75,7 @@ static bool in_turned_corners(const double p[2], int count, double even, double 
     double corners[4 * 64];
 
     for (int i = 0; i < count; i++) {
-        double angle = 2 * PI * i / count, radius = i % 2 ? odd : even;
+        const double angle = 2 * PI * i / count, radius = i % 2 ? odd : even;
         corners[2 * i] = radius * sin(angle);
         corners[2 * i + 1] = radius * cos(angle);
     }
@@ -94,7 +94,7 @@ static bool in_star(const double p[2], const double *n)
 
 static bool in_ring(const double p[2], const double *n)
 {
-    double r = sqrt(p[0] * p[0] + p[1] * p[1]);
+    const double r = sqrt(p[0] * p[0] + p[1] * p[1]);
 
     return r > n[0] - n[1] / 2 && r < n[0] + n[1] / 2;
 }
@@ -116,11 +116,11 @@ static double to_line(line *at, const double p[2], const double *n, int parts)
     double best = INFINITY, before = INFINITY, here = to_point(at, p, n, 0);
 
     for (int i = 0; i <= parts; i++) {
-        double after = i < parts ? to_point(at, p, n, (i + 1.0) / parts) : INFINITY;
+        const double after = i < parts ? to_point(at, p, n, (i + 1.0) / parts) : INFINITY;
         double low = fmax(i - 1.0, 0) / parts, high = fmin(i + 1.0, parts) / parts;
         while (here <= before && here <= after && high - low > 1e-5) {
-            double third = (high - low) / 3;
-            double a = to_point(at, p, n, low + third), b = to_point(at, p, n, high - third);
+            const double third = (high - low) / 3;
+            const double a = to_point(at, p, n, low + third), b = to_point(at, p, n, high - third);
             best = fmin(best, fmin(a, b));
             low += a < b ? 0 : third;
             high -= a < b ? third : 0;
@@ -145,14 +145,14 @@ static bool in_arc(const double p[2], const double *n)
 
 static bool in_vesica(const double p[2], const double *n)
 {
-    double centre = fmin(n[1] / 2, n[0]);
+    const double centre = fmin(n[1] / 2, n[0]);
 
     return hypot(p[0] - centre, p[1]) < n[0] && hypot(p[0] + centre, p[1]) < n[0];
 }
 
 static bool in_cross(const double p[2], const double *n)
 {
-    double across = fmin(n[1], n[0]);
+    const double across = fmin(n[1], n[0]);
 
     return (fabs(p[0]) < n[0] / 2 && fabs(p[1]) < across / 2) ||
            (fabs(p[1]) < n[0] / 2 && fabs(p[0]) < across / 2);
@@ -162,7 +162,7 @@ static bool in_cross(const double p[2], const double *n)
 static void bezier_at(const double *n, double t, double out[2])
 {
     for (int i = 0; i < 2; i++) {
-        double ab = n[i] + t * (n[2 + i] - n[i]), bc = n[2 + i] + t * (n[4 + i] - n[2 + i]);
+        const double ab = n[i] + t * (n[2 + i] - n[i]), bc = n[2 + i] + t * (n[4 + i] - n[2 + i]);
         out[i] = ab + t * (bc - ab);
     }
 }
@@ -174,9 +174,9 @@ static bool in_bezier(const double p[2], const double *n)
 
 static bool in_heart(const double p[2], const double *n)
 {
-    double x = fabs(p[0]) / n[0], y = p[1] / n[0];
-    bool square = x + fabs(y - 0.5) < 0.5;
-    bool half_disc = x + y >= 1 && pow(x - 0.25, 2) + pow(y - 0.75, 2) < 0.125;
+    const double x = fabs(p[0]) / n[0], y = p[1] / n[0];
+    const bool square = x + fabs(y - 0.5) < 0.5;
+    const bool half_disc = x + y >= 1 && pow(x - 0.25, 2) + pow(y - 0.75, 2) < 0.125;
 
     return square || half_disc;
 }
@@ -292,7 +292,7 @@ static bool other_side_at(const struct shape *shape, const double p[2], double r
                           int directions, bool in)
 {
     for (int i = 0; i < directions; i++) {
-        double angle = 2 * PI * i / directions;
+        const double angle = 2 * PI * i / directions;
         double q[2] = {p[0] + radius * cos(angle), p[1] + radius * sin(angle)};
         if (shape->words->inside(q, shape->raw) != in) {
             return true;
@@ -316,9 +316,9 @@ static bool other_side_within(const struct shape *shape, const double p[2], doub
 static void nearest_point(const struct shape *shape, const double p[2], double d, double out[2])
 {
     const double h = 1e-6;
-    double x = distance(shape, p[0] + h, p[1]) - distance(shape, p[0] - h, p[1]);
-    double y = distance(shape, p[0], p[1] + h) - distance(shape, p[0], p[1] - h);
-    double length = fmax(hypot(x, y), 1e-30);
+    const double x = distance(shape, p[0] + h, p[1]) - distance(shape, p[0] - h, p[1]);
+    const double y = distance(shape, p[0], p[1] + h) - distance(shape, p[0], p[1] - h);
+    const double length = fmax(hypot(x, y), 1e-30);
 
     out[0] = p[0] - d * x / length;
     out[1] = p[1] - d * y / length;
@@ -330,7 +330,8 @@ static bool is_exact(const struct shape *shape, const double p[2], double d, boo
     double nearest[2];
 
     if (in && words->line) {
-        double depth = shape->raw[words->width] / 2 - to_line(words->line, p, shape->raw, 200);
+        const double depth =
+            shape->raw[words->width] / 2 - to_line(words->line, p, shape->raw, 200);
         return fabs(-d - depth) < TOLERANCE;
     }
     nearest_point(shape, p, d, nearest);
@@ -341,8 +342,8 @@ static bool is_exact(const struct shape *shape, const double p[2], double d, boo
 
 static void check_point(const struct shape *shape, const double p[2])
 {
-    double d = distance(shape, p[0], p[1]), nearer = fabs(d) - TOLERANCE;
-    bool in = shape->words->inside(p, shape->raw);
+    const double d = distance(shape, p[0], p[1]), nearer = fabs(d) - TOLERANCE;
+    const bool in = shape->words->inside(p, shape->raw);
 
     if (fabs(d) > 1e-6 && in != (d < 0)) {
         fail_at(shape, "has the wrong sign", p, d);
@@ -351,7 +352,7 @@ static void check_point(const struct shape *shape, const double p[2])
                        other_side_within(shape, p, nearer * 0.8, 90, in))) {
         fail_at(shape, "overstates", p, d);
     }
-    bool hollow = shape->words->hollow && shape->words->hollow(shape->raw);
+    const bool hollow = shape->words->hollow && shape->words->hollow(shape->raw);
     if (shape->type->exactness == EXACT && !hollow && !is_exact(shape, p, d, in)) {
         fail_at(shape, "understates", p, d);
     }
@@ -372,7 +373,7 @@ static void distances_are_those_of_the_words(void **state)
         for (int round = 0; round < 250; round++) {
             struct shape shape = random_shape(&random, type);
             for (int k = 0; k < 4; k++) {
-                double size = k % 2 ? 2.5 : 0.8; /* half of the points near or in the shape */
+                const double size = k % 2 ? 2.5 : 0.8; /* half of the points near or in the shape */
                 double p[2] = {random_between(&random, -size, size),
                                random_between(&random, -size, size)};
                 if (shape.words->line && k == 0) { /* on the line, where a miss weighs most */
@@ -400,7 +401,7 @@ static void boxes_hold_the_shapes_and_have_no_end_along_z(void **state)
             for (int k = 0; k < 50; k++) {
                 const double p[3] = {random_between(&random, -1, 1), random_between(&random, -1, 1),
                                      random_between(&random, -1, 1)};
-                double d = shape.sdf->shape(p, shape.ready);
+                const double d = shape.sdf->shape(p, shape.ready);
                 assert_true(d == distance(&shape, p[0], p[1]));
                 struct bounds grown = bounds_grow(box, fmax(d, 0) + 1e-9);
                 for (int j = 0; j < 2; j++) {
@@ -485,7 +486,7 @@ static void degenerate_shapes_have_distances(void **state)
         shape.sdf = sdf_find(shape.type);
         memcpy(shape.raw, known[i].n, sizeof known[i].n);
         shape_prepare(&shape);
-        double d = distance(&shape, known[i].p[0], known[i].p[1]);
+        const double d = distance(&shape, known[i].p[0], known[i].p[1]);
         if (!(fabs(d - known[i].distance) < 1e-4)) {
             fail_msg("%s (row %zu): %.15g instead of %.15g", known[i].type, i, d,
                      known[i].distance);

@@ -82,7 +82,7 @@ static void round_trip(struct surface surfaces[SURFACES])
 /* A quarter of them 0 and a quarter `most`. */
 static float random_part(struct random *random, double most)
 {
-    size_t kind = random_below(random, 4);
+    const size_t kind = random_below(random, 4);
 
     return kind == 0 ? 0 : kind == 1 ? (float)most : (float)random_between(random, 0, most);
 }
@@ -127,8 +127,8 @@ static double half_room(float want)
 
 static void compare(const struct surface *got, const struct surface *want)
 {
-    double glow = fmax(want->emission[0], fmax(want->emission[1], want->emission[2]));
-    double loss = fmax(want->absorption[0], fmax(want->absorption[1], want->absorption[2]));
+    const double glow = fmax(want->emission[0], fmax(want->emission[1], want->emission[2]));
+    const double loss = fmax(want->absorption[0], fmax(want->absorption[1], want->absorption[2]));
 
     for (int i = 0; i < 3; i++) {
         assert_within("diffuse", got->diffuse[i], want->diffuse[i], half_room(want->diffuse[i]));

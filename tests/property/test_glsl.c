@@ -70,8 +70,8 @@ static void compare_distances(size_t index, size_t points)
     for (size_t i = 0; i < points; i++) {
         double p[3];
         to_double(batch.points[i], p);
-        double want = field_distance(batch.fields[index], p);
-        double difference = fabs(want - batch.answers[index * points + i].distance);
+        const double want = field_distance(batch.fields[index], p);
+        const double difference = fabs(want - batch.answers[index * points + i].distance);
         if (!(difference <= TOLERANCE)) {
             fail_scene(index, "distances differ", difference, i);
         }
@@ -179,7 +179,7 @@ static void every_row_agrees(void **state)
         if (type->kind == KIND_MODEL || type->kind == KIND_CODE) {
             continue;
         }
-        int choice = choice_of(type);
+        const int choice = choice_of(type);
         const char *const *choices = choice < 0 ? NULL : type->record.params[choice].choices;
         for (int k = 0; k == 0 || (choices && choices[k]); k++) {
             batch_add_random(&random, type, choice, k, &limits);
@@ -199,7 +199,7 @@ static void nested_scenes_agree(void **state)
     struct plan plan = {.rounds = 2, .points = 64};
 
     for (int i = 0; i < 120; i++) {
-        enum node_kind kind = (enum node_kind)(KIND_COMBINE + i % 4);
+        const enum node_kind kind = (enum node_kind)(KIND_COMBINE + i % 4);
         limits.depth = 1 + i % 8;
         batch_add_random(&random, random_type(&random, kind, &limits), -1, 0, &limits);
         if (batch.count == FIELDS_MAX) {

@@ -60,7 +60,7 @@ static void drop_hidden(cJSON *children)
 static void prune_children(const cJSON *node, cJSON *children)
 {
     const char *type = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(node, "type"));
-    bool of_first = strstr(type, "difference") != NULL;
+    const bool of_first = strstr(type, "difference") != NULL;
 
     cut_to_operands(node, children);
     if (of_first && is_hidden(cJSON_GetArrayItem(children, 0))) {
@@ -199,7 +199,7 @@ static void assert_same_text(const char *a, const char *b)
 static void assert_same_at(const struct scene *scene, const struct field *a, const struct field *b,
                            const double p[3])
 {
-    double got = field_distance(a, p), want = field_distance(b, p);
+    const double got = field_distance(a, p), want = field_distance(b, p);
 
     if (got != want) {
         fail_msg("%.17g instead of %.17g at %g %g %g\n%s", got, want, p[0], p[1], p[2],
@@ -286,7 +286,8 @@ static struct isolated isolate_some(struct random *random, const struct scene *s
     for (size_t i = 0; i < isolated.count; i++) {
         const struct node *node = scene->root;
         while (node->child_count > 0 && random_below(random, 4)) {
-            size_t among = strcmp(node->type->record.name, "morph") == 0 ? 2 : node->child_count;
+            const size_t among =
+                strcmp(node->type->record.name, "morph") == 0 ? 2 : node->child_count;
             node = node->children[random_below(random, among)];
         }
         isolated.ids[i] = node->id;
@@ -301,7 +302,7 @@ static void hidden_nodes_are_left_out(void **state)
     struct random_limits limits = {.depth = 1};
 
     for (int i = 0; i < 600; i++) {
-        enum node_kind kind = (enum node_kind)(KIND_COMBINE + i % 4);
+        const enum node_kind kind = (enum node_kind)(KIND_COMBINE + i % 4);
         limits.depth = 1 + i % 4;
         struct scene *scene = random_scene(&random, random_type(&random, kind, &limits), &limits);
         struct field *drawn = compile_field(scene);
@@ -346,7 +347,7 @@ static void isolated_nodes_are_alone(void **state)
     struct random_limits limits = {.depth = 1};
 
     for (int i = 0; i < 600; i++) {
-        enum node_kind kind = (enum node_kind)(KIND_COMBINE + i % 4);
+        const enum node_kind kind = (enum node_kind)(KIND_COMBINE + i % 4);
         limits.depth = 1 + i % 4;
         struct scene *scene = random_scene(&random, random_type(&random, kind, &limits), &limits);
         struct field *drawn = compile_field(scene);
@@ -399,7 +400,7 @@ static void models_code_and_the_floor_are_no_exception(void **state)
 static uint64_t shape_after(const struct scene *scene, const struct field *drawn)
 {
     struct field *field = compile_after(scene, drawn, &none);
-    uint64_t shape = field->structure_hash;
+    const uint64_t shape = field->structure_hash;
 
     field_unref(field);
     return shape;
@@ -498,8 +499,8 @@ static void compare(const struct scene *scene, const struct field *field, const 
                     const struct probe_answer *answer)
 {
     const double p[3] = {point[0], point[1], point[2]};
-    double want = field_distance(field, p);
-    bool empty = want >= FIELD_FAR;
+    const double want = field_distance(field, p);
+    const bool empty = want >= FIELD_FAR;
 
     if (empty ? answer->distance < 1e8f : !(fabs(want - answer->distance) <= TOLERANCE)) {
         fail_msg("%g instead of %g at %g %g %g\n%s", (double)answer->distance, want, p[0], p[1],
@@ -528,7 +529,7 @@ static void check_round(struct random *random, const struct probe *probe,
     }
     probe_run(probe, program, batch->kept, batch->count, points, GLSL_POINTS, answers);
     for (size_t i = 0; i < batch->count * GLSL_POINTS; i++) {
-        size_t field = i / GLSL_POINTS;
+        const size_t field = i / GLSL_POINTS;
         compare(batch->scenes[field], batch->kept[field], points[i % GLSL_POINTS], &answers[i]);
     }
     for (size_t i = 0; i < batch->count; i++) {
@@ -572,7 +573,7 @@ static struct scene *scene_of_type(struct random *random, const struct node_type
             scene->root->params.values[choice_of(type)].number[0] = choice;
         }
         struct field *field = compile_field(scene);
-        bool usable = field->loop_trips <= LOOPS_MAX;
+        const bool usable = field->loop_trips <= LOOPS_MAX;
         field_unref(field);
         if (usable) {
             return scene;
@@ -592,7 +593,7 @@ static void glsl_agrees(void **state)
     assert_true(probe_init(&probe, &err));
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
-        int at = choice_of(type);
+        const int at = choice_of(type);
         const char *const *choices = at < 0 ? NULL : type->record.params[at].choices;
         bool inner =
             type->kind == KIND_COMBINE || type->kind == KIND_DISTANCE || type->kind == KIND_DOMAIN;

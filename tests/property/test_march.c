@@ -96,7 +96,7 @@ static void check_ray(struct tally *tally, const struct scene *scene, const stru
 static void cross(const double a[3], const double b[3], double out[3])
 {
     for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
         out[i] = a[j] * b[k] - a[k] * b[j];
     }
 }
@@ -116,7 +116,8 @@ static void check_picture(struct random *random, struct tally *tally, const stru
         origin[i] = 6 * back[i];
     }
     for (int pixel = 0; pixel < width * height; pixel++) {
-        double x = (pixel % width + 0.5) / width - 0.5, y = (pixel / width + 0.5) / height - 0.5;
+        const double x = (pixel % width + 0.5) / width - 0.5,
+                     y = (pixel / width + 0.5) / height - 0.5;
         double direction[3], square = 0;
         for (int i = 0; i < 3; i++) {
             direction[i] = x * right[i] + y * up[i] - back[i];
@@ -162,7 +163,7 @@ static void no_scene_oversteps(void **state)
 
     for (int i = 0; i < 100; i++) {
         const struct random_limits limits = {.depth = 1 + i % 4, .bounded = true};
-        enum node_kind kind = (enum node_kind)(KIND_COMBINE + i / 4 % 4);
+        const enum node_kind kind = (enum node_kind)(KIND_COMBINE + i / 4 % 4);
         struct scene *scene = random_scene(&random, random_type(&random, kind, &limits), &limits);
         check_picture(&random, &tally, scene, WIDTH, HEIGHT);
         scene_destroy(scene);

@@ -137,7 +137,7 @@ static void a_blend_of_models_has_one_of_them(void **state)
     for (int i = -5; i <= 5; i++) {
         const double p[3] = {0.03 + 0.1 * i, 0.4, 0};
         struct field_surface at = field_surface(pair.field, p, NULL);
-        bool left = p[0] < 0;
+        const bool left = p[0] < 0;
         assert_true(at.material[FIELD_GLOSS] == (left ? 0.25 : 100));
         assert_true(at.material[FIELD_MODEL] == (left ? MODEL_STANDARD : MODEL_PHONG));
         assert_true(at.material[FIELD_IOR] > 1.6 && at.material[FIELD_IOR] < 2.4);
@@ -184,7 +184,7 @@ static void colours_of_ours_agree(void **state)
             near_wall = near_wall || fabs(cell - round(cell)) < 1e-4;
             sum += floor(cell);
         }
-        bool first = fmod(fabs(sum), 2) == 0;
+        const bool first = fmod(fabs(sum), 2) == 0;
         if (!near_wall) {
             assert_true(m[0] == (first ? 1 : 0) && m[1] == (first ? 0 : 1) && m[2] == 0);
             counts[first]++;
@@ -309,7 +309,7 @@ static void a_face_between_two_cubes_has_the_inner_colour(void **state)
             double in[3] = {0.3, 0.3, 0.3}, low[3] = {0.3, 0.3, 0.3}, high[3] = {0.3, 0.3, 0.3};
             low[axis] = side - 1e-3, high[axis] = side + 1e-3;
             in[axis] = side == 0 ? 0.5 : 0.5 * side;
-            double want = field_surface(pair.field, in, NULL).material[0];
+            const double want = field_surface(pair.field, in, NULL).material[0];
             assert_true(field_surface(pair.field, low, NULL).material[0] == want);
             assert_true(field_surface(pair.field, high, NULL).material[0] == want);
         }
@@ -377,7 +377,7 @@ static void assert_sees(const struct field *all, float field_mask, const struct 
     ask(all, field_mask, points, POINTS, answers);
     for (int i = 0; i < POINTS; i++) {
         const double p[3] = {points[i][0], points[i][1], points[i][2]};
-        double want = field_distance(left, p);
+        const double want = field_distance(left, p);
         if (fabs(want - answers[i].distance) > 1e-4) {
             fail_msg("%s: %g, not %g at %g %g %g", what, (double)answers[i].distance, want, p[0],
                      p[1], p[2]);

@@ -226,7 +226,7 @@ static bool agrees(const struct field *field, const float p[3], const struct pro
         struct field_surface want = field_surface(field, q, NULL);
         same = want.number == got->leaf;
         for (int j = 0; j < FIELD_MATERIAL_NUMBERS; j++) {
-            bool told = j == FIELD_SHADER || j == FIELD_UNLIT; /* not in a Surface */
+            const bool told = j == FIELD_SHADER || j == FIELD_UNLIT; /* not in a Surface */
             same = same && (told || fabs(want.material[j] - got->material[j]) <= 0.01);
         }
         if (same) {

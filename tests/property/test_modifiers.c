@@ -26,7 +26,7 @@ static double distance_at(const char *root, double x, double y, double z)
 {
     const double p[3] = {x, y, z};
     struct field *field = modified_field(root);
-    double d = field_distance(field, p);
+    const double d = field_distance(field, p);
 
     field_unref(field);
     return d;
@@ -55,8 +55,8 @@ static void check_bound(struct random *random, const struct modified *modified,
     for (int k = 0; k < 20; k++) {
         double p[3], direction[3], q[3];
         random_point(random, 2, p);
-        double d = field_distance(modified->whole, p);
-        bool in = inside(modified->child, p, modified->n) < 0;
+        const double d = field_distance(modified->whole, p);
+        const bool in = inside(modified->child, p, modified->n) < 0;
         if (fabs(d) > 1e-5 && in != (d < 0)) {
             fail_msg("%g has the wrong sign at %g %g %g\n%s", d, p[0], p[1], p[2], modified->text);
         }
@@ -130,11 +130,11 @@ static void no_modifier_makes_a_field_steeper(void **state)
 
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
-        bool copies = strncmp(type->record.name, "repeat", 6) == 0;
+        const bool copies = strncmp(type->record.name, "repeat", 6) == 0;
         for (int round = 0; round < 60 && is_modifier(type); round++) {
             struct modified modified = modified_random(&random, type, copies);
             for (int k = 0; k < 60; k++) {
-                double slope = modified_steepness(&random, &modified);
+                const double slope = modified_steepness(&random, &modified);
                 if (!(slope <= 1 + 1e-3)) {
                     fail_msg("%g\n%s", slope, modified.text);
                 }
@@ -217,14 +217,14 @@ static void modifiers_scale(void **state)
     for (size_t i = 0; i < node_type_count(); i++) {
         for (int round = 0; round < 60 && is_modifier(node_type_at(i)); round++) {
             struct modified modified = modified_random(&random, node_type_at(i), true);
-            double scale = pow(2, random_between(&random, -4, 4));
+            const double scale = pow(2, random_between(&random, -4, 4));
             struct field *scaled = scaled_field(&modified, scale);
             for (int k = 0; k < 30; k++) {
                 double p[3];
                 random_point(&random, k % 2 ? 0.4 : 3, p);
                 const double q[3] = {p[0] * scale, p[1] * scale, p[2] * scale};
-                double want = field_distance(modified.whole, p);
-                double got = field_distance(scaled, q) / scale;
+                const double want = field_distance(modified.whole, p);
+                const double got = field_distance(scaled, q) / scale;
                 if (!(fabs(got - want) < 1e-5)) {
                     fail_msg("scaled by %g: %g instead of %g\n%s", scale, got, want, modified.text);
                 }
@@ -264,7 +264,7 @@ static void assert_same(const char *a, const char *b)
     for (int k = 0; k < 1000; k++) {
         double p[3];
         random_point(&random, 2, p);
-        double d = field_distance(fields[0], p), want = field_distance(fields[1], p);
+        const double d = field_distance(fields[0], p), want = field_distance(fields[1], p);
         if (!(fabs(d - want) < 1e-6)) {
             fail_msg("%g instead of %g\n%s", d, want, a);
         }

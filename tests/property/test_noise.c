@@ -30,11 +30,12 @@ static void noise_keeps_its_bounds(void **state)
         for (int i = 0; i < 3; i++) {
             q[i] = p[i] + 1e-4 * direction[i];
         }
-        double value = noise_value(p, 7);
+        const double value = noise_value(p, 7);
         steepest = fmax(steepest, fabs(noise_value(q, 7) - value) / 1e-4);
         greatest = fmax(greatest, fabs(value));
         sum += value;
-        double all = noise_octaves(p, 5, 7), slope = fabs(noise_octaves(q, 5, 7) - all) / 1e-4;
+        const double all = noise_octaves(p, 5, 7),
+                     slope = fabs(noise_octaves(q, 5, 7) - all) / 1e-4;
         assert_true(fabs(all) <= noise_greatest(5) && slope <= noise_slope(5));
     }
     assert_true(steepest <= noise_slope(1) && steepest > 0.7 * noise_slope(1));
@@ -57,7 +58,7 @@ static void noise_is_what_its_whole_points_say(void **state)
             p[i] = at[i];
             far[i] = p[i] + random_between(&random, 0, 1) - 3 * 65536.0;
         }
-        double number = noise_lattice(at[0], at[1], at[2], seed);
+        const double number = noise_lattice(at[0], at[1], at[2], seed);
         assert_true(noise_value(p, seed) == number && number == (float)number);
         same += number == noise_lattice(at[0], at[1], at[2], seed + 1);
         const double near[3] = {far[0] + 65536, far[1] + 2 * 65536.0, far[2]};

@@ -70,7 +70,7 @@ static double polynomial(double a, double b, double k, int n)
 
 static double circular(double a, double b, double k)
 {
-    double y = 1 - step_of(a, b, k);
+    const double y = 1 - step_of(a, b, k);
 
     return fmin(a, b) - k * (1 - (y + sqrt(2 - y * y)) / 2);
 }
@@ -87,7 +87,7 @@ static double root(double a, double b, double k)
 
 static double power_form(double a, double b, double k)
 {
-    double x = pow(a, k), y = pow(b, k);
+    const double x = pow(a, k), y = pow(b, k);
 
     return fmin(a, b) > 0 ? pow(x * y / (x + y), 1 / k) : fmin(a, b);
 }
@@ -143,10 +143,11 @@ static void kernels_are_their_printed_formulas(void **state)
     assert_int_equal(kernel_count(), sizeof closed_forms / sizeof closed_forms[0]);
     for (size_t kernel = 0; kernel < kernel_count(); kernel++) {
         for (int i = 0; i < 2000; i++) {
-            double a = random_between(&random, -3, 3), k = random_between(&random, 0.05, 3);
+            const double a = random_between(&random, -3, 3), k = random_between(&random, 0.05, 3);
             double b = a + random_between(&random, -1, 1) * (i % 2 ? 4 : 0.5), share;
             double n[3] = {k, (double)kernel, random_order(&random)};
-            double low = printed(a, b, n), high = -printed(-a, -b, n), cut = -printed(-a, b, n);
+            const double low = printed(a, b, n), high = -printed(-a, -b, n),
+                         cut = -printed(-a, b, n);
             assert_true(fabs(smooth_union(a, b, n) - low) < 1e-9);
             assert_true(smooth_union(a, b, n) == smooth_union(b, a, n));
             assert_true(fabs(row("smooth_intersection")->combine(a, b, n, &share) - high) < 1e-9);
@@ -172,11 +173,11 @@ static void orders_with_names_are_polynomials(void **state)
     struct random random = {38};
 
     for (int i = 0; i < 3000; i++) {
-        double a = random_between(&random, -1, 1), b = random_between(&random, -1, 1);
+        const double a = random_between(&random, -1, 1), b = random_between(&random, -1, 1);
         const double named[3] = {0.7, kernel_index(names[i % 3]), 9};
         const double order[3] = {0.7, kernel_index("polynomial"), 2 + i % 3};
         double share, other;
-        double d = row("smooth_union")->combine(a, b, named, &share);
+        const double d = row("smooth_union")->combine(a, b, named, &share);
         assert_true(fabs(d - row("smooth_union")->combine(a, b, order, &other)) < 1e-12);
         assert_true(fabs(share - other) < 1e-12);
     }
@@ -191,8 +192,8 @@ static void compact_kernels_reach_as_far_as_k(void **state)
         for (int i = 0; i < 1000 && closed_form_of(kernel)->compact; i++) {
             const double n[3] = {random_between(&random, 0.01, 2), (double)kernel,
                                  random_order(&random)};
-            double a = random_between(&random, -3, 3), k = n[0];
-            double sign = i % 2 ? 1 : -1, beyond = k * random_between(&random, 1, 3);
+            const double a = random_between(&random, -3, 3), k = n[0];
+            const double sign = i % 2 ? 1 : -1, beyond = k * random_between(&random, 1, 3);
             /* Nearer to k a high order has less left than doubles have digits. */
             double within =
                 k * random_between(&random, 0, closed_form_of(kernel)->blend ? 0.95 : 0.8);
@@ -212,7 +213,7 @@ static void far_operands_do_no_harm(void **state)
         for (size_t i = 0; i < 7 * 7 * 5; i++) {
             double a = far[i % 7], b = far[i / 7 % 7], share;
             const double n[3] = {ks[i / 49], (double)kernel, 2 + (double)(i % 15)};
-            double d = row("smooth_union")->combine(a, b, n, &share);
+            const double d = row("smooth_union")->combine(a, b, n, &share);
             assert_true(isfinite(d) && d <= fmin(a, b) && share >= 0 && share <= 1);
             /* Where one is far nearer, nothing is left of the other. */
             if (fabs(a - b) > 1e8 && n[0] > 1e-3 && fmax(a, b) > 0) {
@@ -234,7 +235,7 @@ static size_t kernels_of(const struct node_type *type)
 static void random_numbers_of(struct random *random, const struct node_type *type, size_t kernel,
                               double n[3])
 {
-    bool power = kernels_of(type) > 1 && closed_form_of(kernel)->blend == power_form;
+    const bool power = kernels_of(type) > 1 && closed_form_of(kernel)->blend == power_form;
 
     n[0] = type->record.params[0].name ? random_between(random, 0.05, 1) : 0;
     n[0] = power ? 1 + 3 * n[0] : n[0];
@@ -280,8 +281,8 @@ static void check_share(struct random *random, const struct node_type *type, con
         return;
     }
     sdf_find(type)->combine(a, b, n, &share);
-    double by_a = fabs(combine(type, a + h, b, n) - combine(type, a - h, b, n)) / (2 * h);
-    double by_b = fabs(combine(type, a, b + h, n) - combine(type, a, b - h, n)) / (2 * h);
+    const double by_a = fabs(combine(type, a + h, b, n) - combine(type, a - h, b, n)) / (2 * h);
+    const double by_b = fabs(combine(type, a, b + h, n) - combine(type, a, b - h, n)) / (2 * h);
     if (!(fabs(by_b / (by_a + by_b) - share) < 1e-4)) {
         fail_msg("%s, kernel %g, k %g: share %g at %g %g instead of %g", type->record.name, n[1],
                  n[0], share, a, b, by_b / (by_a + by_b));
@@ -299,11 +300,11 @@ static void shares_are_derivatives(void **state)
 /* Where both operands change by at most so much, so does the result: near, far, over every edge. */
 static void check_steepness(struct random *random, const struct node_type *type, const double n[3])
 {
-    double a = random_between(random, -1, 1), step = pow(10, random_between(random, -4, 0.5));
-    double b = random_below(random, 2) ? a + random_between(random, -0.1, 0.1)
-                                       : random_between(random, -1, 1);
-    double there = combine(type, a + random_between(random, -step, step),
-                           b + random_between(random, -step, step), n);
+    const double a = random_between(random, -1, 1), step = pow(10, random_between(random, -4, 0.5));
+    const double b = random_below(random, 2) ? a + random_between(random, -0.1, 0.1)
+                                             : random_between(random, -1, 1);
+    const double there = combine(type, a + random_between(random, -step, step),
+                                 b + random_between(random, -step, step), n);
 
     if (!(fabs(there - combine(type, a, b, n)) <= step * (1 + 1e-9) + 1e-12)) {
         fail_msg("%s, kernel %g, k %g: too steep at %g %g", type->record.name, n[1], n[0], a, b);
@@ -335,16 +336,16 @@ static void check_lowered(struct random *random, const struct node_type *type, c
 {
     const struct sdf *sdf = sdf_find(type);
     double operands[OPERANDS_MAX] = {0}, least = INFINITY;
-    size_t count = 2 + random_below(random, OPERANDS_MAX - 1);
-    bool equal = random_below(random, 2);
+    const size_t count = 2 + random_below(random, OPERANDS_MAX - 1);
+    const bool equal = random_below(random, 2);
 
     for (size_t i = 0; i < count; i++) {
         operands[i] = i && equal ? operands[0] : random_between(random, -0.2, 1);
         least = fmin(least, operands[i]);
     }
-    double d = fold(type, operands, count, n);
-    double lowered = sdf->lowered ? sdf->lowered(n, count) : 0;
-    double stretched = sdf->stretched ? sdf->stretched(n, count) : 1;
+    const double d = fold(type, operands, count, n);
+    const double lowered = sdf->lowered ? sdf->lowered(n, count) : 0;
+    const double stretched = sdf->stretched ? sdf->stretched(n, count) : 1;
     if (sdf->rule != SDF_ANY || sdf->operands > 0) {
         return; /* the box of one operand is enough */
     }
@@ -423,12 +424,12 @@ static char *operation_text(const struct node_type *type, const double n[3], con
 static void check_in_scenes(struct random *random, const struct node_type *type, const double n[3])
 {
     char more[96];
-    double scale = pow(2, random_between(random, -4, 4));
+    const double scale = pow(2, random_between(random, -4, 4));
 
     snprintf(more, sizeof more, ",'transform':{'scale':%.17g}", scale);
     char *plain = operation_text(type, n, ""), *scaled = operation_text(type, n, more);
     struct field *a = field_of(plain), *b = field_of(scaled);
-    size_t operands = sdf_find(type)->operands;
+    const size_t operands = sdf_find(type)->operands;
     for (int k = 0; k < 20; k++) {
         double p[3], q[3], distances[3];
         for (int j = 0; j < 3; j++) {
@@ -436,8 +437,8 @@ static void check_in_scenes(struct random *random, const struct node_type *type,
             q[j] = p[j] * scale;
         }
         balls(p, distances);
-        double want = fold(type, distances, operands ? operands : 3, n);
-        double got = field_distance(a, p), there = field_distance(b, q) / scale;
+        const double want = fold(type, distances, operands ? operands : 3, n);
+        const double got = field_distance(a, p), there = field_distance(b, q) / scale;
         if (!(fabs(got - want) < 1e-5 && fabs(there - want) < 1e-5)) {
             fail_msg("%s: %g, scaled by %g %g instead of %g", plain, got, scale, there, want);
         }
@@ -460,7 +461,7 @@ static double distance_at(const char *root, double x, double y, double z)
 {
     const double p[3] = {x, y, z};
     struct field *field = field_of(root);
-    double d = field_distance(field, p);
+    const double d = field_distance(field, p);
 
     field_unref(field);
     return d;
@@ -479,8 +480,8 @@ static void exclusive_is_an_odd_number_of_children(void **state)
             p[j] = random_between(&random, -1, 1);
         }
         balls(p, d);
-        int in = (d[0] < 0) + (d[1] < 0) + (d[2] < 0);
-        double nearest = fmin(fabs(d[0]), fmin(fabs(d[1]), fabs(d[2])));
+        const int in = (d[0] < 0) + (d[1] < 0) + (d[2] < 0);
+        const double nearest = fmin(fabs(d[0]), fmin(fabs(d[1]), fabs(d[2])));
         seen[in]++;
         assert_true((field_distance(field, p) < 0) == (in % 2 == 1));
         assert_true(fabs(fabs(field_distance(field, p)) - nearest) < 1e-6); /* its own surface */

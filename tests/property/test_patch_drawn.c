@@ -250,8 +250,8 @@ int main(void)
         cmocka_unit_test(edits_are_drawn),
         cmocka_unit_test(edits_allocate_no_fields),
     };
-    int failed = cmocka_run_group_tests_name("patched pictures by the device", tests, with_device,
-                                             close_renderer);
+    const int failed = cmocka_run_group_tests_name("patched pictures by the device", tests,
+                                                   with_device, close_renderer);
 
     return failed + cmocka_run_group_tests_name("patched pictures by the engine", tests,
                                                 with_engine, close_renderer);

@@ -50,7 +50,7 @@ static void both_tables_have_the_same_rows(void **state)
         if (!sdf) {
             fail_msg("%s has no row in sdf.c", type->record.name);
         }
-        bool shape = type->kind == KIND_SHAPE || type->kind == KIND_FLAT;
+        const bool shape = type->kind == KIND_SHAPE || type->kind == KIND_FLAT;
         assert_true(shape == (sdf->shape && sdf->box));
         assert_true(!shape || (type->lipschitz > 0) == !sdf->lipschitz);
         assert_true((type->kind == KIND_COMBINE || type->kind == KIND_GROUP) ==
@@ -191,7 +191,7 @@ static void known_distances(void **state)
         if (sdf->prepare) {
             sdf->prepare(n);
         }
-        double got = sdf->shape(known[i].p, n);
+        const double got = sdf->shape(known[i].p, n);
         if (!(fabs(got - known[i].distance) < 1e-12)) {
             fail_msg("%s (row %zu): %.15g instead of %.15g", known[i].type, i, got,
                      known[i].distance);
@@ -207,10 +207,10 @@ static double steepness(struct random *random, const struct field *field)
     double p[3], q[3], direction[3], gradient[3], worst = 0;
 
     random_point(random, SIZE, p);
-    double d = field_distance(field, p);
+    const double d = field_distance(field, p);
     random_direction(random, direction);
     for (int k = 0; k < 2; k++) {
-        double step = k ? random_between(random, 0.01, 3) : 1e-4;
+        const double step = k ? random_between(random, 0.01, 3) : 1e-4;
         along(p, direction, step, q);
         worst = fmax(worst, fabs(field_distance(field, q) - d) / step);
     }
@@ -238,7 +238,7 @@ static void no_field_is_steeper_than_the_distance(void **state)
             struct scene *scene = random_scene(&random, type, &limits);
             struct field *field = compile_field(scene);
             for (int k = 0; k < 50; k++) {
-                double slope = steepness(&random, field);
+                const double slope = steepness(&random, field);
                 if (!(slope <= 1 + 1e-3)) {
                     fail_msg("%s: %g\n%s", type->record.name, slope, root_text(scene));
                 }
@@ -265,7 +265,7 @@ static void no_nested_field_is_steeper(void **state)
         if (!strstr(text, "repeat")) {
             round++;
             for (int k = 0; k < 50; k++) {
-                double slope = steepness(&random, field);
+                const double slope = steepness(&random, field);
                 if (!(slope <= 1 + 1e-3)) {
                     fail_msg("%g\n%s", slope, root_text(scene));
                 }
@@ -286,7 +286,7 @@ static size_t check_box(struct random *random, const struct scene *scene)
     for (int k = 0; k < 200; k++) {
         double p[3];
         random_point(random, 5, p);
-        double d = field_distance(field, p);
+        const double d = field_distance(field, p);
         struct bounds box = bounds_grow(field->bounds, fmax(d, 0) + 1e-5);
         solid += d <= 0;
         for (int j = 0; j < 3; j++) {

@@ -72,7 +72,7 @@ static bool agrees(const struct code_gpu_job *job, const double *numbers, const 
         for (int i = 0; i < 4; i++) {
             low[i] = corner < 0 ? value[i] : fmin(low[i], value[i]);
             high[i] = corner < 0 ? value[i] : fmax(high[i], value[i]);
-            double room = TOLERANCE * fmax(1, fmax(fabs(low[i]), fabs(high[i])));
+            const double room = TOLERANCE * fmax(1, fmax(fabs(low[i]), fabs(high[i])));
             all = all && got[i] >= low[i] - room && got[i] <= high[i] + room;
         }
         if (all) {

@@ -65,7 +65,7 @@ static void write_arguments(FILE *out, const struct param *params)
     int next = 0;
 
     for (; params->name; params++) {
-        int count = param_components(params->type);
+        const int count = param_components(params->type);
         fprintf(out, ", %s(", names[count]);
         for (int i = 0; i < count; i++) {
             fprintf(out, "%snumbers[%d]", i > 0 ? ", " : "", next++);
@@ -131,7 +131,7 @@ bool code_gpu_run(struct code_gpu *gpu, const struct code_gpu_job *jobs, size_t 
                   struct error *err)
 {
     const struct gl *gl = &gpu->gl;
-    size_t bytes = count * CODE_GPU_POINTS * sizeof *out;
+    const size_t bytes = count * CODE_GPU_POINTS * sizeof *out;
     char *text = write_program(jobs, count);
     const struct glsl_file own[] = {{"jobs.glsl", text}, {NULL, NULL}};
     struct pass pass;

@@ -18,7 +18,7 @@ static double read_sum(struct reader *reader);
 static bool take(struct reader *reader, char wanted)
 {
     reader->at += strspn(reader->at, " ");
-    bool found = *reader->at == wanted;
+    const bool found = *reader->at == wanted;
     reader->at += found;
     return found;
 }
@@ -31,7 +31,7 @@ static void expect(struct reader *reader, char wanted)
 static double read_argument(struct reader *reader)
 {
     expect(reader, '(');
-    double value = read_sum(reader);
+    const double value = read_sum(reader);
     expect(reader, ')');
     return value;
 }

@@ -24,7 +24,7 @@ static void minus(const double a[3], const double b[3], double out[3])
 static void cross(const double a[3], const double b[3], double out[3])
 {
     for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
         out[i] = a[j] * b[k] - a[k] * b[j];
     }
 }
@@ -36,7 +36,7 @@ static bool in_box(const double p[3], const double *n)
 
 static bool in_plane(const double p[3], const double *n)
 {
-    double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
 
     return (p[0] * n[0] + p[1] * n[1] + p[2] * n[2]) / length < n[3];
 }
@@ -48,7 +48,7 @@ static bool in_prism(const double p[3], const double *n, int sides, double first
     bool inside = fabs(p[2]) < n[1] / 2;
 
     for (int i = 0; i < sides; i++) {
-        double angle = first + 2 * PI * i / sides;
+        const double angle = first + 2 * PI * i / sides;
         inside = inside && p[0] * cos(angle) + p[1] * sin(angle) < n[0];
     }
     return inside;
@@ -66,7 +66,7 @@ static bool in_tri_prism(const double p[3], const double *n)
 
 static bool in_pyramid(const double p[3], const double *n)
 {
-    double half = n[0] / 2 * (1 - p[1] / n[1]);
+    const double half = n[0] / 2 * (1 - p[1] / n[1]);
 
     return p[1] > 0 && p[1] < n[1] && fabs(p[0]) < half && fabs(p[2]) < half;
 }
@@ -94,8 +94,8 @@ static bool beside_segment(const double p[3], const double *a, const double *b, 
 static bool in_rhombus(const double p[3], const double *n)
 {
     double q[3] = {fabs(p[0]), 0, fabs(p[2])}, a[3] = {n[0] / 2, 0, 0}, b[3] = {0, 0, n[1] / 2};
-    bool plan = q[0] / a[0] + q[2] / b[2] < 1 || near_point(q, a, n[3]) || near_point(q, b, n[3]) ||
-                beside_segment(q, a, b, n[3]);
+    const bool plan = q[0] / a[0] + q[2] / b[2] < 1 || near_point(q, a, n[3]) ||
+                      near_point(q, b, n[3]) || beside_segment(q, a, b, n[3]);
 
     return plan && fabs(p[1]) < n[2] / 2;
 }
@@ -161,7 +161,7 @@ static void add_corners(struct hull *hull, double x, double y, double z)
             double *corner = hull->corners[hull->corner_count];
             bool twice = false;
             for (int i = 0; i < 3; i++) {
-                double sign = signs >> i & 1 ? -1 : 1;
+                const double sign = signs >> i & 1 ? -1 : 1;
                 corner[i] = sign * at[(i + turn) % 3] / length;
                 twice = twice || (sign < 0 && corner[i] == 0);
             }
@@ -178,7 +178,7 @@ static void add_plane(struct hull *hull, const double *a, const double *b, const
     minus(b, a, u);
     minus(c, a, v);
     cross(u, v, normal);
-    double length = sqrt(dot(normal, normal));
+    const double length = sqrt(dot(normal, normal));
     if (length < 1e-9) {
         return;
     }
@@ -198,9 +198,9 @@ static void add_plane(struct hull *hull, const double *a, const double *b, const
 static bool in_hull(struct hull *hull, const double p[3], double radius)
 {
     if (hull->plane_count == 0) {
-        int count = hull->corner_count;
+        const int count = hull->corner_count;
         for (int i = 0; i < count * count * count; i++) {
-            int a = i % count, b = i / count % count, c = i / count / count;
+            const int a = i % count, b = i / count % count, c = i / count / count;
             if (a < b && a < c && b != c) { /* each turn once, in both senses */
                 add_plane(hull, hull->corners[a], hull->corners[b], hull->corners[c]);
             }
@@ -257,8 +257,8 @@ static bool in_icosahedron(const double p[3], const double *n)
 
 static bool in_gyroid(const double p[3], const double *n)
 {
-    double k = 2 * PI / n[0], x = k * p[0], y = k * p[1], z = k * p[2];
-    double g = sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x);
+    const double k = 2 * PI / n[0], x = k * p[0], y = k * p[1], z = k * p[2];
+    const double g = sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x);
 
     return in_box(p, n + 2) && fabs(g) / (sqrt(3) * k) < n[1] / 2;
 }
@@ -275,7 +275,7 @@ static bool in_menger(const double p[3], const double *n)
     for (int level = 0; level < (int)n[1]; level++) {
         int middle = 0;
         for (int i = 0; i < 3; i++) {
-            double digit = floor(3 * q[i]);
+            const double digit = floor(3 * q[i]);
             q[i] = 3 * q[i] - digit;
             middle += digit == 1;
         }
@@ -320,8 +320,9 @@ static bool in_mandelbulb(const double p[3], const double *n)
     double z[3] = {p[0], p[1], p[2]}, edge = pow(2, 1 / (n[0] - 1)), r = sqrt(dot(z, z));
 
     for (int i = 0; i < (int)n[1] && r < edge; i++) {
-        double down = n[0] * atan2(hypot(z[0], z[2]), z[1]), around = n[0] * atan2(z[0], z[2]);
-        double length = pow(r, n[0]);
+        const double down = n[0] * atan2(hypot(z[0], z[2]), z[1]),
+                     around = n[0] * atan2(z[0], z[2]);
+        const double length = pow(r, n[0]);
         z[0] = length * sin(down) * sin(around) + p[0];
         z[1] = length * cos(down) + p[1];
         z[2] = length * sin(down) * cos(around) + p[2];
@@ -355,11 +356,11 @@ static bool in_terrain(const double p[3], const double *n)
     double sum = 0, most = 0, x = p[0], z = p[2], cell = fmax(n[0], n[2]) / 4;
 
     for (int octave = 0; octave < (int)n[3]; octave++) {
-        double height = pow(0.5, octave), size = cell * height;
-        double u = x / size + 0.37 * (1 / height - 1), v = z / size + 0.61 * (1 / height - 1);
+        const double height = pow(0.5, octave), size = cell * height;
+        const double u = x / size + 0.37 * (1 / height - 1), v = z / size + 0.61 * (1 / height - 1);
         for (int k = 0; k < 4; k++) {
-            double i = floor(u) + k % 2, j = floor(v) + k / 2;
-            uint32_t seed = (uint32_t)n[4] + 65536u * (uint32_t)octave;
+            const double i = floor(u) + k % 2, j = floor(v) + k / 2;
+            const uint32_t seed = (uint32_t)n[4] + 65536u * (uint32_t)octave;
             sum += height * share(u - i) * share(v - j) * corner_height(i, j, seed);
         }
         most += height;

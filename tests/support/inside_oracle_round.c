@@ -27,7 +27,7 @@ static bool in_round_box(const double p[3], const double *n)
     double radius = fmin(n[3], fmin(n[0], fmin(n[1], n[2])) / 2), sum = 0;
 
     for (int i = 0; i < 3; i++) {
-        double core = n[i] / 2 - radius;
+        const double core = n[i] / 2 - radius;
         sum += pow(p[i] - clamped(p[i], -core, core), 2);
     }
     return sum <= radius * radius; /* may be 0 */
@@ -39,7 +39,7 @@ static bool in_box_frame(const double p[3], const double *n)
     int near = 0;
 
     for (int i = 0; i < 3; i++) {
-        double depth = n[i] / 2 - fabs(p[i]);
+        const double depth = n[i] / 2 - fabs(p[i]);
         if (depth <= 0) {
             return false;
         }
@@ -50,7 +50,7 @@ static bool in_box_frame(const double p[3], const double *n)
 
 static bool in_torus(const double p[3], const double *n)
 {
-    double ring = sqrt(p[0] * p[0] + p[2] * p[2]) - n[0];
+    const double ring = sqrt(p[0] * p[0] + p[2] * p[2]) - n[0];
 
     return ring * ring + p[1] * p[1] < n[1] * n[1];
 }
@@ -58,8 +58,8 @@ static bool in_torus(const double p[3], const double *n)
 /* Near the point of the arc at the nearest angle. */
 static bool near_arc(double x, double y, double z, double radius, double angle, double reach)
 {
-    double at = clamped(atan2(x, y), -angle, angle);
-    double dx = x - radius * sin(at), dy = y - radius * cos(at);
+    const double at = clamped(atan2(x, y), -angle, angle);
+    const double dx = x - radius * sin(at), dy = y - radius * cos(at);
 
     return dx * dx + dy * dy + z * z < reach * reach;
 }
@@ -72,8 +72,8 @@ static bool in_capped_torus(const double p[3], const double *n)
 /* Two half rings and two straight parts. */
 static bool in_link(const double p[3], const double *n)
 {
-    double y = fabs(p[1]), half = n[0] / 2, aside = fabs(p[0]) - n[1];
-    double straight = y - clamped(y, -half, half);
+    const double y = fabs(p[1]), half = n[0] / 2, aside = fabs(p[0]) - n[1];
+    const double straight = y - clamped(y, -half, half);
 
     return near_arc(p[0], y - half, p[2], n[1], acos(-1) / 2, n[2]) ||
            aside * aside + straight * straight + p[2] * p[2] < n[2] * n[2];
@@ -87,9 +87,10 @@ static bool in_cylinder(const double p[3], const double *n)
 /* Within the rounding of a point of the cylinder that is smaller by it. */
 static bool in_round_cylinder(const double p[3], const double *n)
 {
-    double rounding = fmin(n[2], fmin(n[0], n[1] / 2)), r = sqrt(p[0] * p[0] + p[2] * p[2]);
-    double half = n[1] / 2 - rounding;
-    double aside = r - clamped(r, 0, n[0] - rounding), over = p[1] - clamped(p[1], -half, half);
+    const double rounding = fmin(n[2], fmin(n[0], n[1] / 2)), r = sqrt(p[0] * p[0] + p[2] * p[2]);
+    const double half = n[1] / 2 - rounding;
+    const double aside = r - clamped(r, 0, n[0] - rounding),
+                 over = p[1] - clamped(p[1], -half, half);
 
     return aside * aside + over * over <= rounding * rounding; /* may be 0 */
 }
@@ -131,7 +132,7 @@ static bool in_round_cone(const double p[3], const double *n)
 /* Nearer to the axis than the wall at its height. */
 static bool in_cone_part(const double p[3], double radius1, double radius2, double height)
 {
-    double t = p[1] / height + 0.5, wall = radius1 + t * (radius2 - radius1);
+    const double t = p[1] / height + 0.5, wall = radius1 + t * (radius2 - radius1);
 
     return t > 0 && t < 1 && p[0] * p[0] + p[2] * p[2] < wall * wall;
 }
@@ -159,7 +160,7 @@ static bool in_cut_sphere(const double p[3], const double *n)
 /* Its section is an arc around -Y. */
 static bool in_cut_hollow_sphere(const double p[3], const double *n)
 {
-    double angle = acos(clamped(-n[1] / n[0], -1, 1));
+    const double angle = acos(clamped(-n[1] / n[0], -1, 1));
 
     return near_arc(sqrt(p[0] * p[0] + p[2] * p[2]), -p[1], 0, n[0], angle, n[2]);
 }

@@ -51,14 +51,14 @@ static double elongate_at(const struct field *child, const double p[3], const do
 /* Rotations about an axis are right-handed: +Z to +X about +Y, +X to +Y about +Z. */
 static double twist_at(const struct field *child, const double p[3], const double *n)
 {
-    double c = cos(-n[0] * p[1]), s = sin(-n[0] * p[1]);
+    const double c = cos(-n[0] * p[1]), s = sin(-n[0] * p[1]);
 
     return at(child, c * p[0] + s * p[2], p[1], -s * p[0] + c * p[2]);
 }
 
 static double bend_at(const struct field *child, const double p[3], const double *n)
 {
-    double c = cos(-n[0] * p[0]), s = sin(-n[0] * p[0]);
+    const double c = cos(-n[0] * p[0]), s = sin(-n[0] * p[0]);
 
     return at(child, c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]);
 }
@@ -71,7 +71,7 @@ static double offset_at(const struct field *child, const double p[3], const doub
 
 static double displace_at(const struct field *child, const double p[3], const double *n)
 {
-    double waves = sin(n[1] * p[0]) * sin(n[2] * p[1]) * sin(n[3] * p[2]);
+    const double waves = sin(n[1] * p[0]) * sin(n[2] * p[1]) * sin(n[3] * p[2]);
 
     return field_distance(child, p) + n[0] * waves;
 }
@@ -89,8 +89,8 @@ static double noise_at(const struct field *child, const double p[3], const doubl
 
 static double extrude_at(const struct field *child, const double p[3], const double *n)
 {
-    double r = fmin(n[1], n[0] / 2), side = at(child, p[0], p[1], 0) + r;
-    double cap = fabs(p[2]) - n[0] / 2 + r;
+    const double r = fmin(n[1], n[0] / 2), side = at(child, p[0], p[1], 0) + r;
+    const double cap = fabs(p[2]) - n[0] / 2 + r;
 
     return side > 0 && cap > 0 ? sqrt(side * side + cap * cap) - r : fmax(side, cap) - r;
 }
@@ -105,7 +105,7 @@ static double polar_at(const struct field *child, const double p[3], const doubl
     double least = INFINITY;
 
     for (int i = 0; i < (int)n[0]; i++) {
-        double c = cos(2 * PI * i / n[0]), s = sin(2 * PI * i / n[0]);
+        const double c = cos(2 * PI * i / n[0]), s = sin(2 * PI * i / n[0]);
         least = fmin(least, at(child, c * p[0] + s * p[2] - n[1], p[1], c * p[2] - s * p[0]));
     }
     return least;
@@ -206,7 +206,7 @@ static char *random_child(struct random *random, const struct random_limits *lim
     char *text;
     size_t length;
     FILE *out = open_memstream(&text, &length);
-    enum node_kind kind = flat ? KIND_FLAT : KIND_SHAPE;
+    const enum node_kind kind = flat ? KIND_FLAT : KIND_SHAPE;
 
     if (!out) {
         abort();
@@ -231,7 +231,7 @@ struct modified modified_random(struct random *random, const struct node_type *t
 {
     const struct random_limits limits = {.bounded = true, .exact = exact, .inner = true};
     const struct random_limits plain = {.bounded = true, .plain = true};
-    bool flat = is_section(type) && random_below(random, 4);
+    const bool flat = is_section(type) && random_below(random, 4);
     char *child = random_child(random, &limits, flat, !exact);
     struct scene *scene = random_scene(random, type, &plain);
     cJSON *object = cJSON_CreateObject();
@@ -262,7 +262,7 @@ double modified_outside(const struct modified *modified, const double p[3])
     double d = field_distance(modified->whole, p), square = 0;
 
     for (int i = 0; i < 3; i++) {
-        double out = fmax(fmax(box->low[i] - p[i], p[i] - box->high[i]), 0);
+        const double out = fmax(fmax(box->low[i] - p[i], p[i] - box->high[i]), 0);
         square += out * out;
     }
     return sqrt(square) - fmax(d, 0) * box->stretch;
@@ -274,7 +274,7 @@ static void random_seam(struct random *random, const struct modified *modified, 
     for (int i = 0; i < 3; i++) {
         out[i] = random_between(random, -2.5, 2.5);
     }
-    int axis = (int)random_below(random, 3);
+    const int axis = (int)random_below(random, 3);
     switch (random_below(random, 4)) {
     case 0:
         out[axis] = 0;
@@ -285,7 +285,7 @@ static void random_seam(struct random *random, const struct modified *modified, 
     case 2: { /* between copies around the axis */
         double angle =
             PI / fmax(round(modified->n[0]), 1) * (double)(1 + 2 * random_below(random, 9));
-        double r = hypot(out[0], out[2]);
+        const double r = hypot(out[0], out[2]);
         out[0] = r * cos(angle);
         out[2] = r * sin(angle);
         break;
@@ -300,9 +300,10 @@ double modified_steepness(struct random *random, const struct modified *modified
     double p[3], q[3], direction[3], worst = 0;
 
     random_seam(random, modified, p);
-    double d = field_distance(modified->whole, p);
+    const double d = field_distance(modified->whole, p);
     for (int k = 0; k < 4; k++) {
-        double step = pow(10, random_between(random, -3, 0.4)); /* numbers are those of floats */
+        const double step =
+            pow(10, random_between(random, -3, 0.4)); /* numbers are those of floats */
         random_direction(random, direction);
         if (k == 0) {
             field_normal(modified->whole, p, 1e-5, direction);

@@ -211,8 +211,8 @@ void probe_run(const struct probe *probe, const struct probe_program *program,
                size_t point_count, struct probe_answer *out)
 {
     const struct gl *gl = &probe->gl;
-    size_t groups = (point_count + GROUP - 1) / GROUP, all = groups * GROUP;
-    size_t bytes = count * all * ANSWER_VEC4S * 4 * sizeof(float);
+    const size_t groups = (point_count + GROUP - 1) / GROUP, all = groups * GROUP;
+    const size_t bytes = count * all * ANSWER_VEC4S * 4 * sizeof(float);
 
     float(*padded)[3] = memory_alloc(all, sizeof *padded);
     memcpy(padded, points, point_count * sizeof *points);
@@ -227,7 +227,7 @@ void probe_run(const struct probe *probe, const struct probe_program *program,
     const float *answers =
         gl->MapBufferRange(GL_SHADER_STORAGE_BUFFER, 0, (GLsizeiptr)bytes, GL_MAP_READ_BIT);
     for (size_t i = 0; i < count * point_count; i++) {
-        size_t at = i / point_count * all + i % point_count;
+        const size_t at = i / point_count * all + i % point_count;
         read_answer(answers + at * ANSWER_VEC4S * 4, program->surface, &out[i]);
     }
     gl->UnmapBuffer(GL_SHADER_STORAGE_BUFFER);

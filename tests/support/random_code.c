@@ -44,8 +44,8 @@ static void make_call(struct maker *maker, int rows)
                  {"mix(", 3},       {"clamp(", 3},     {"smoothstep(", 3}, {"tanh(", 1},
                  {"fract(", 1},     {"exp2(-abs(", 1}, {"step(", 2},       {"saturate(", 1}};
     enum { CALLS = sizeof calls / sizeof calls[0] };
-    bool jumps = rows == 1; /* normalize() of a number is its sign */
-    size_t which = jumps + random_below(maker->random, CALLS - jumps);
+    const bool jumps = rows == 1; /* normalize() of a number is its sign */
+    const size_t which = jumps + random_below(maker->random, CALLS - jumps);
     fputs(calls[which].before, maker->out);
     for (int i = 0; i < calls[which].arguments; i++) {
         fputs(i > 0 ? ", " : "", maker->out);
@@ -150,7 +150,7 @@ static void make_statement(struct maker *maker)
     default:
         fputs("{ ", maker->out);
     }
-    size_t which = random_below(maker->random, sizeof places / sizeof places[0]);
+    const size_t which = random_below(maker->random, sizeof places / sizeof places[0]);
     fputs(places[which].place, maker->out);
     make_value(maker, places[which].rows);
     fputs("; a = clamp(a, -4.0, 4.0); b = clamp(b, -4.0, 4.0); c = clamp(c, -4.0, 4.0);\n"
@@ -182,8 +182,8 @@ char *random_code_make(struct random *random)
 void random_code_damage(struct random *random, char *text, size_t size)
 {
     static const char bytes[] = "(){}[];,.+-*/%&|^~!?:=<>#\\\"'09aex_ \n\x80\xff";
-    size_t length = strlen(text);
-    size_t from = random_below(random, length), to = random_below(random, length);
+    const size_t length = strlen(text);
+    const size_t from = random_below(random, length), to = random_below(random, length);
     size_t count = 1 + random_below(random, 12);
     char part[16];
 
@@ -245,13 +245,13 @@ void random_code_swap(struct random *random, char *text, size_t size)
     while (at > 0 && is_word(text[at]) && is_word(text[at - 1])) {
         at--;
     }
-    size_t old = token_at(text, at);
+    const size_t old = token_at(text, at);
     if (old == 0) {
         return;
     }
     const char *now = is_word(text[at]) ? words[random_below(random, sizeof words / sizeof *words)]
                                         : marks[random_below(random, sizeof marks / sizeof *marks)];
-    size_t count = strlen(now);
+    const size_t count = strlen(now);
     if (length - old + count < size) {
         memmove(text + at + count, text + at + old, length - at - old + 1);
         memcpy(text + at, now, count);

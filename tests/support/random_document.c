@@ -38,7 +38,7 @@ static double random_number(struct random *random, const struct param *param)
 
     param_range(param, &min, &max);
     do {
-        double low = fmax(min, -100), high = fmin(max, 100);
+        const double low = fmax(min, -100), high = fmin(max, 100);
         number = random_chance(random, 0.3) ? odd[random_below(random, sizeof odd / sizeof odd[0])]
                                             : random_between(random, low, high);
         if (param_is_whole(param->type)) {
@@ -73,7 +73,7 @@ static cJSON *random_points(struct random *random, const struct param *param)
 {
     static const struct param number = {.type = PARAM_FLOAT};
     cJSON *list = cJSON_CreateArray();
-    size_t least = (size_t)param->min, most = (size_t)param->max;
+    const size_t least = (size_t)param->min, most = (size_t)param->max;
 
     for (size_t i = least + random_below(random, most - least + 1); i > 0; i--) {
         cJSON *pair = cJSON_CreateArray();
@@ -147,7 +147,7 @@ static cJSON *random_name(struct random *random, const struct scene *scene, int 
 {
     static const struct resource_list none = {0};
     const struct resource_list *list = scene ? random_list(scene, kind) : &none;
-    size_t index = random_below(random, list->count + 1);
+    const size_t index = random_below(random, list->count + 1);
 
     return cJSON_CreateString(index < list->count ? list->items[index]->name : "");
 }
@@ -208,7 +208,7 @@ cJSON *random_value(struct random *random, const struct param *param, const stru
 static void add_values(struct random *random, cJSON *object, const struct record_type *type,
                        const struct scene *scene)
 {
-    double likely = random_chance(random, 0.5) ? 0.2 : 0.8;
+    const double likely = random_chance(random, 0.5) ? 0.2 : 0.8;
 
     for (const struct param *param = type->params; param->name; param++) {
         if (random_chance(random, likely) &&
@@ -243,10 +243,10 @@ static cJSON *random_params(struct random *random, const struct node_type *type,
     const struct resource_list *primitives = &scene->primitives;
     const struct record_type *params = &type->record;
     cJSON *object = cJSON_CreateObject();
-    size_t index = random_below(random, primitives->count + 1);
+    const size_t index = random_below(random, primitives->count + 1);
 
     if (type->kind == KIND_CODE) {
-        bool named = index < primitives->count;
+        const bool named = index < primitives->count;
         params = named ? &primitives->items[index]->declared->type : params;
         cJSON_AddStringToObject(object, "primitive", named ? params->name : "");
     }
@@ -265,7 +265,7 @@ cJSON *random_tree(struct random *random, size_t nodes, const struct scene *scen
     cJSON_AddItemToObject(node, "params", random_params(random, type, scene));
     cJSON *children = cJSON_AddArrayToObject(node, "children");
     for (nodes--; nodes > 0;) {
-        size_t share = 1 + random_below(random, nodes);
+        const size_t share = 1 + random_below(random, nodes);
         cJSON_AddItemToArray(children, random_tree(random, share, scene));
         nodes -= share;
     }
@@ -456,7 +456,7 @@ struct scene *random_document(struct random *random, size_t nodes)
         cJSON_AddItemToObject(document, records[i]->name, random_record(random, records[i], scene));
     }
     for (int kind = 0; kind < RANDOM_KINDS; kind++) {
-        bool array = kind == RANDOM_LIGHTS || kind == RANDOM_VOLUMES;
+        const bool array = kind == RANDOM_LIGHTS || kind == RANDOM_VOLUMES;
         cJSON *list = array ? cJSON_CreateArray() : cJSON_CreateObject();
         cJSON_AddItemToObject(document, random_kinds[kind].list, list);
         for (size_t i = 0, count = random_below(random, 4); i < count; i++) {

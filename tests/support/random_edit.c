@@ -67,7 +67,7 @@ static cJSON *set(const char *prefix, const char *name, cJSON *value)
 static cJSON *set_in(struct random *random, const struct scene *scene, const char *prefix,
                      const struct record_type *type)
 {
-    size_t count = record_type_count(type);
+    const size_t count = record_type_count(type);
 
     if (count == 0) {
         return set(prefix, "nothing", cJSON_CreateNumber(1));
@@ -89,7 +89,8 @@ static cJSON *set_in_node(struct random *random, const struct scene *scene)
     static const char *const types[] = {"field", "model", "sphere"};
     const struct node *node = random_node_to_set(random, scene);
     char place[160];
-    size_t choice = random_below(random, 6), type = random_below(random, 2 * node_type_count());
+    const size_t choice = random_below(random, 6),
+                 type = random_below(random, 2 * node_type_count());
 
     snprintf(place, sizeof place, "/nodes/%s%s", node->id,
              choice == 0   ? "/transform"
@@ -114,7 +115,7 @@ static cJSON *set_in_node(struct random *random, const struct scene *scene)
 
 static cJSON *set_in_resource(struct random *random, const struct scene *scene)
 {
-    int kind = (int)random_below(random, RANDOM_KINDS);
+    const int kind = (int)random_below(random, RANDOM_KINDS);
     const struct random_kind *row = &random_kinds[kind];
     const struct resource_list *list = random_list(scene, kind);
 
@@ -123,7 +124,7 @@ static cJSON *set_in_resource(struct random *random, const struct scene *scene)
     }
     const struct resource *resource = list->items[random_below(random, list->count)];
     char place[160];
-    int used = snprintf(place, sizeof place, "/%s/%s", row->list, resource->name);
+    const int used = snprintf(place, sizeof place, "/%s/%s", row->list, resource->name);
     if (row->type && random_chance(random, 0.3)) {
         return set(place, row->type, cJSON_CreateString(random_type_name(random, kind, scene)));
     }
@@ -175,14 +176,14 @@ static void add_before(struct random *random, cJSON *op, const char *name)
 
 static const char *some_child(struct random *random, const struct node *node)
 {
-    size_t index = random_below(random, node->child_count + 1);
+    const size_t index = random_below(random, node->child_count + 1);
 
     return index < node->child_count ? node->children[index]->id : NULL;
 }
 
 static const char *some_name(struct random *random, const struct resource_list *list)
 {
-    size_t index = random_below(random, list->count + 1);
+    const size_t index = random_below(random, list->count + 1);
 
     return index < list->count ? list->items[index]->name : NULL;
 }
@@ -193,7 +194,7 @@ static cJSON *random_insert(struct random *random, const struct scene *scene)
     cJSON *op;
 
     if (random_chance(random, 0.5)) {
-        int kind = (int)random_below(random, RANDOM_KINDS);
+        const int kind = (int)random_below(random, RANDOM_KINDS);
         snprintf(text, sizeof text, "/%s", random_kinds[kind].list);
         op = begin("insert", "into", text);
         add_before(random, op, some_name(random, random_list(scene, kind)));
@@ -214,7 +215,7 @@ static cJSON *random_insert(struct random *random, const struct scene *scene)
  * node. */
 static int random_thing(struct random *random, const struct scene *scene, char place[100])
 {
-    int kind = (int)random_below(random, 2 * RANDOM_KINDS);
+    const int kind = (int)random_below(random, 2 * RANDOM_KINDS);
 
     if (kind >= RANDOM_KINDS) {
         snprintf(place, 100, "/nodes/%s", random_node_of(random, scene)->id);
@@ -228,7 +229,7 @@ static int random_thing(struct random *random, const struct scene *scene, char p
 static cJSON *random_move(struct random *random, const struct scene *scene)
 {
     char place[100], into[100];
-    int kind = random_thing(random, scene, place);
+    const int kind = random_thing(random, scene, place);
     const struct node *parent = random_node_of(random, scene);
     cJSON *op = begin("move", "at", place);
 
@@ -276,7 +277,7 @@ void random_damage(struct random *random, char *text, size_t length)
     static const char likely[] = "{}[],:\"/0123456789-+.eEtfnul\\ax_ ";
 
     for (size_t i = 1 + random_below(random, 4); i > 0; i--) {
-        size_t from = random_below(random, length), to = random_below(random, length);
+        const size_t from = random_below(random, length), to = random_below(random, length);
         text[to] = random_chance(random, 0.4)   ? text[from]
                    : random_chance(random, 0.9) ? likely[random_below(random, sizeof likely - 1)]
                                                 : (char)random_below(random, 256);

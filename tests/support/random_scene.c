@@ -32,8 +32,8 @@ size_t random_below(struct random *random, size_t count)
 
 void random_direction(struct random *random, double out[3])
 {
-    double y = random_between(random, -1, 1), angle = random_between(random, 0, 2 * acos(-1));
-    double r = sqrt(1 - y * y);
+    const double y = random_between(random, -1, 1), angle = random_between(random, 0, 2 * acos(-1));
+    const double r = sqrt(1 - y * y);
 
     out[0] = r * cos(angle);
     out[1] = y;
@@ -53,11 +53,11 @@ static void useful_range(struct random *random, const struct param *param, int p
 
     param_range(param, &least, &most);
     if (is_whole(param)) {
-        bool ends = param->type == PARAM_IVEC3 && limits->bounded && limits->inner;
+        const bool ends = param->type == PARAM_IVEC3 && limits->bounded && limits->inner;
         *low = fmax(least, ends ? 0 : -1); /* -1: copies without end */
         *high = fmin(most, *low + 5);
     } else if (param->unit == UNIT_ANGLE || least < 0) {
-        double size = param->unit == UNIT_ANGLE ? 3 : 1;
+        const double size = param->unit == UNIT_ANGLE ? 3 : 1;
         *low = fmax(least, -size);
         *high = fmin(most, size);
     } else if (usual > 0 && random_below(random, 8)) {
@@ -106,12 +106,12 @@ static void random_components(struct random *random, const struct param *param,
 /* The corners of a simple polygon around the origin, in either order. */
 static void random_corners(struct random *random, size_t count, double *out)
 {
-    double step = 2 * acos(-1) / (double)count * (random_below(random, 2) ? 1 : -1);
-    double phase = random_between(random, 0, 7);
+    const double step = 2 * acos(-1) / (double)count * (random_below(random, 2) ? 1 : -1);
+    const double phase = random_between(random, 0, 7);
 
     for (size_t i = 0; i < count; i++) {
-        double angle = phase + step * ((double)i + random_between(random, 0, 0.4));
-        double radius = random_between(random, 0.2, 1);
+        const double angle = phase + step * ((double)i + random_between(random, 0, 0.4));
+        const double radius = random_between(random, 0.2, 1);
         out[2 * i] = radius * cos(angle);
         out[2 * i + 1] = radius * sin(angle);
     }
@@ -119,8 +119,8 @@ static void random_corners(struct random *random, size_t count, double *out)
 
 static void write_components(FILE *out, const struct param *param, const double *numbers)
 {
-    int count = component_count(param);
-    bool boolean = param->type == PARAM_BOOL || param->type == PARAM_BVEC3;
+    const int count = component_count(param);
+    const bool boolean = param->type == PARAM_BOOL || param->type == PARAM_BVEC3;
 
     fprintf(out, count > 1 ? "[" : "");
     for (int i = 0; i < count; i++) {
@@ -137,8 +137,9 @@ static void write_components(FILE *out, const struct param *param, const double 
 static void write_corners(struct random *random, FILE *out, const struct param *param)
 {
     double corners[2 * LIMIT_POINTS];
-    size_t least = (size_t)param->min;
-    size_t count = random_below(random, 16) ? least + random_below(random, 8) : (size_t)param->max;
+    const size_t least = (size_t)param->min;
+    const size_t count =
+        random_below(random, 16) ? least + random_below(random, 8) : (size_t)param->max;
 
     random_corners(random, count, corners);
     for (size_t i = 0; i < count; i++) {
@@ -192,8 +193,8 @@ static void random_transform(struct random *random, const struct node_type *type
                              const struct random_limits *limits, double translation[3],
                              double rotation[3], double scale[3])
 {
-    bool uniform = limits->exact || random_below(random, 2);
-    double all = random_between(random, 0.6, 1.4);
+    const bool uniform = limits->exact || random_below(random, 2);
+    const double all = random_between(random, 0.6, 1.4);
 
     for (int i = 0; i < 3; i++) {
         translation[i] = random_between(random, -1, 1);
@@ -241,7 +242,7 @@ static bool is_endless(const struct node_type *type)
 
 static bool allowed(const struct node_type *type, const struct random_limits *limits)
 {
-    bool shape = type->kind == KIND_SHAPE || type->kind == KIND_FLAT;
+    const bool shape = type->kind == KIND_SHAPE || type->kind == KIND_FLAT;
 
     if (shape && limits->exact && type->exactness != EXACT) {
         return false;
@@ -280,7 +281,7 @@ static const struct node_type *random_leaf(struct random *random,
 static const struct node_type *random_child(struct random *random, const struct node_type *parent,
                                             const struct random_limits *limits, bool first)
 {
-    bool deeper = limits->depth > 0 && (limits->lean ? first : random_below(random, 3) != 0);
+    const bool deeper = limits->depth > 0 && (limits->lean ? first : random_below(random, 3) != 0);
 
     if (is_section(parent) && !(limits->lean && deeper) && random_below(random, 4)) {
         return random_type(random, KIND_FLAT, limits);
@@ -313,7 +314,7 @@ void random_node(struct random *random, FILE *out, const struct node_type *type,
     if (random_below(random, 2)) {
         fprintf(out, ",'material':'m%zu'", random_below(random, 3));
     }
-    size_t count = random_child_count(random, type, limits);
+    const size_t count = random_child_count(random, type, limits);
     struct random_limits below = *limits;
     below.depth--;
     below.inner = true;
@@ -328,7 +329,7 @@ static void write_material(struct random *random, FILE *out, const struct record
 {
     fprintf(out, "{'shader':'%s','properties':{", shader->name);
     for (const struct param *param = shader->params; param->name; param++) {
-        double low = fmax(param->min, 0.5), high = fmin(param->max, 4 * low);
+        const double low = fmax(param->min, 0.5), high = fmin(param->max, 4 * low);
         fprintf(out, "%s'%s':", param == shader->params ? "" : ",", param->name);
         if (param->type == PARAM_COLOR) {
             fprintf(out, "[%.9g,%.9g,%.9g]", random_between(random, 0.2, 1),
@@ -401,7 +402,7 @@ void random_numbers(struct random *random, struct node *node, const struct rando
         static const char *const names[] = {"translation", "rotation", "scale"};
         random_transform(random, node->type, limits, parts[0], parts[1], parts[2]);
         for (int i = 0; i < 3; i++) {
-            int at = record_type_find(&transform_type, names[i]);
+            const int at = record_type_find(&transform_type, names[i]);
             memcpy(node->transform.values[at].number, parts[i], sizeof parts[i]);
         }
     }

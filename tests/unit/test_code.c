@@ -53,7 +53,7 @@ static double box(double x, double y, double z)
 static double index_of_vector(double x, double y, double z)
 {
     const double p[3] = {x, y, z};
-    int i = fabs(x) < 1 ? 0 : fabs(x) < 2 ? 1 : 2;
+    const int i = fabs(x) < 1 ? 0 : fabs(x) < 2 ? 1 : 2;
 
     return 3 + p[2] * (i >= 0);
 }
@@ -77,7 +77,7 @@ static double int_division_of_vectors(double x, double y)
 
 static double int_bits(double x)
 {
-    int a = (int)(x * 100);
+    const int a = (int)(x * 100);
 
     return ((a & 15) | 32) + (a ^ 5) + ~a + (int)((unsigned)a << 2) + (a >> 1);
 }
@@ -92,14 +92,14 @@ static double hash(double x)
 
 static double smoothstep_backwards(double x)
 {
-    double t = clamped(1 - x, 0, 1);
+    const double t = clamped(1 - x, 0, 1);
 
     return t * t * (3 - 2 * t) + 1;
 }
 
 static double smooth_union(double a, double b, double k)
 {
-    double h = clamped(0.5 + 0.5 * (b - a) / k, 0, 1);
+    const double h = clamped(0.5 + 0.5 * (b - a) / k, 0, 1);
 
     return b * (1 - h) + a * h - k * h * (1 - h);
 }
@@ -266,7 +266,7 @@ static void accepted_code_gives_its_values(void **state)
         for (int k = 0; k < POINTS; k++) {
             struct code_fault fault;
             const double *p = points[k];
-            double want = values[i].value(p[0], p[1], p[2]);
+            const double want = values[i].value(p[0], p[1], p[2]);
             if (fabs(want) < 1e9) {
                 assert_value(values[i].name, p, code_distance(code, p, NULL, NULL), want);
                 assert_value(values[i].name, p, code_distance(code, p, NULL, &fault), want);
@@ -281,12 +281,12 @@ static void accepted_code_gives_its_values(void **state)
 static double hex_prism(const double p[3], double apothem, double half)
 {
     double x = fabs(p[0]), y = fabs(p[1]), z = fabs(p[2]);
-    double along = 2 * fmin(-0.8660254 * x + 0.5 * y, 0);
+    const double along = 2 * fmin(-0.8660254 * x + 0.5 * y, 0);
 
     x += along * 0.8660254;
     y -= along * 0.5;
-    double side = x - clamped(x, -0.57735 * apothem, 0.57735 * apothem);
-    double d = hypot(side, y - apothem) * ((y > apothem) - (y < apothem)), e = z - half;
+    const double side = x - clamped(x, -0.57735 * apothem, 0.57735 * apothem);
+    const double d = hypot(side, y - apothem) * ((y > apothem) - (y < apothem)), e = z - half;
     return fmin(fmax(d, e), 0) + hypot(fmax(d, 0), fmax(e, 0));
 }
 

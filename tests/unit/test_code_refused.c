@@ -25,16 +25,16 @@ static bool refuses(const struct code_block *block)
 {
     struct error err = {0};
     const char *head = block->head;
-    bool shade = strncmp(head, "shade ", 6) == 0, limit = strncmp(head, "limit ", 6) == 0;
+    const bool shade = strncmp(head, "shade ", 6) == 0, limit = strncmp(head, "limit ", 6) == 0;
     char *words;
 
     head += shade || limit ? 6 : 0;
-    int line = (int)strtol(head, &words, 10), column = (int)strtol(words + 1, &words, 10);
+    const int line = (int)strtol(head, &words, 10), column = (int)strtol(words + 1, &words, 10);
     struct code_source source = {shade ? CODE_SHADE : CODE_DISTANCE, block->text, no_params, false};
     struct code *code = code_compile(&source, &err);
-    bool right = !code && err.line == line && err.column == column &&
-                 strstr(err.message, words + 1) &&
-                 err.kind == (limit ? ERROR_LIMIT : ERROR_COMPILE) && err.place[0] == '\0';
+    const bool right = !code && err.line == line && err.column == column &&
+                       strstr(err.message, words + 1) &&
+                       err.kind == (limit ? ERROR_LIMIT : ERROR_COMPILE) && err.place[0] == '\0';
     if (!right) {
         print_error("tests/code/refused.glsl:%d: %s at %d:%d: %s\n", block->line,
                     code ? "not refused" : error_kind_name(err.kind), err.line, err.column,
@@ -64,7 +64,7 @@ static void refused_code_says_why_and_where(void **state)
 /* `before`, `part` so many times, `after`. */
 static char *repeated(const char *before, const char *part, size_t count, const char *after)
 {
-    size_t length = strlen(before) + count * strlen(part) + strlen(after);
+    const size_t length = strlen(before) + count * strlen(part) + strlen(after);
     char *text = malloc(length + 1), *at = text;
 
     assert_non_null(text);
@@ -108,7 +108,7 @@ static void bytes_are_limited(void **state)
 {
     static const char code[] = "float sdf(vec3 p) { return 1.0; }//";
     (void)state;
-    size_t room = LIMIT_CODE_BYTES - (sizeof code - 1);
+    const size_t room = LIMIT_CODE_BYTES - (sizeof code - 1);
 
     assert_parts(code, "", "", "x", "", room, "code of 16385 bytes, above the maximum 16384");
     /* What Mesa's compiler dies of. */
@@ -342,7 +342,7 @@ static void try_text(const char *text)
         return;
     }
     struct code_fault fault;
-    double d = code_distance(code, at_point, NULL, NULL);
+    const double d = code_distance(code, at_point, NULL, NULL);
     assert_true(isfinite(d));
     code_distance(code, at_point, NULL, &fault);
     char *written = NULL;
@@ -453,7 +453,7 @@ static void long_texts_are_read_quickly(void **state)
 
     for (size_t h = 0; h < sizeof heads / sizeof heads[0]; h++) {
         for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
-            size_t count = (LIMIT_CODE_BYTES - strlen(heads[h])) / strlen(parts[i]);
+            const size_t count = (LIMIT_CODE_BYTES - strlen(heads[h])) / strlen(parts[i]);
             char *text = repeated(heads[h], parts[i], count, "");
             try_text(text);
             free(text);

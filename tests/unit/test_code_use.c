@@ -50,7 +50,7 @@ static const double every_number[24] = {0.5,  3,   1,    2, 4,  5,  6,  7,  8,  
 static double run_with_params(const char *text)
 {
     struct code *code = compile(text, CODE_DISTANCE, every_type);
-    double d = code_distance(code, (double[3]){0, 0, 0}, every_number, NULL);
+    const double d = code_distance(code, (double[3]){0, 0, 0}, every_number, NULL);
 
     code_destroy(code);
     return d;
@@ -272,7 +272,7 @@ static void faults_name_the_place(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         struct code_fault fault;
         struct code *code = compile(rows[i].text, CODE_DISTANCE, no_params);
-        double d = code_distance(code, (double[3]){1, 2, 3}, NULL, &fault);
+        const double d = code_distance(code, (double[3]){1, 2, 3}, NULL, &fault);
         assert_true(isfinite(d));
         assert_true(rows[i].line == 0 || d == 1e9);
         if (fault.line != rows[i].line || fault.column != rows[i].column ||

@@ -27,7 +27,7 @@ static int status_of(const char *text)
 {
     struct http_head *head = memory_alloc(1, sizeof *head);
     struct http_head_fault fault = {0};
-    int status = http_head_read(text, strlen(text), head, &fault) ? 200 : fault.status;
+    const int status = http_head_read(text, strlen(text), head, &fault) ? 200 : fault.status;
 
     free(head);
     return status;
@@ -36,7 +36,7 @@ static int status_of(const char *text)
 static void finds_the_end(void **state)
 {
     const char text[] = "GET / HTTP/1.1\r\nHost: x\r\n\r\nbody";
-    long end = (long)strlen(text) - 4;
+    const long end = (long)strlen(text) - 4;
 
     (void)state;
     for (size_t seen = 0; seen <= (size_t)end - 1; seen++) {
@@ -153,7 +153,7 @@ static uint32_t add_frame(struct send_queue *queue, uint32_t number, uint8_t fla
     struct shared_buffer *buffer = letters('f', length);
     struct frame_header header = {
         .number = number, .flags = flags, .payload_bytes = (uint32_t)length};
-    uint32_t given_up = send_queue_frame(queue, &header, buffer);
+    const uint32_t given_up = send_queue_frame(queue, &header, buffer);
 
     shared_buffer_unref(buffer);
     return given_up;

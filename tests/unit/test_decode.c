@@ -182,7 +182,7 @@ static void runs_of_radiance_are_decoded(void **state)
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         const uint8_t *p = pixels + 4 * i;
         for (int c = 0; c < 3; c++) {
-            double want = p[3] ? p[c] * pow(2, p[3] - 136) : 0;
+            const double want = p[3] ? p[c] * pow(2, p[3] - 136) : 0;
             want_value(&decoded, i, c, want, 1e-6 * want);
         }
     }

@@ -71,7 +71,7 @@ static void note_reached(const cJSON *applied, const cJSON *inverse)
 
     at = at ? at : cJSON_GetObjectItem(applied->child, "into");
     for (int i = 0; i < REACHED && !applied->child->next; i++) {
-        size_t length = strlen(at->valuestring), end = strlen(reached[i].ends);
+        const size_t length = strlen(at->valuestring), end = strlen(reached[i].ends);
         reached[i].seen +=
             strcmp(name, reached[i].op) == 0 && (inverse->child->next || !reached[i].more) &&
             strncmp(at->valuestring, reached[i].begins, strlen(reached[i].begins)) == 0 &&
@@ -95,7 +95,7 @@ static size_t height_of(const struct node *node)
     size_t height = 1;
 
     for (size_t i = 0; i < node->child_count; i++) {
-        size_t child = height_of(node->children[i]);
+        const size_t child = height_of(node->children[i]);
         assert_int_equal(node_position(node->children[i]), i);
         assert_ptr_equal(node->children[i]->parent, node);
         height = child + 1 > height ? child + 1 : height;
@@ -217,7 +217,7 @@ static void damaged_edits(void **state)
     for (int i = 0; i < DAMAGED; i++) {
         cJSON *edit = random_edit(&random, wild), *inverse;
         char *text = json_print(edit, false);
-        size_t length = strlen(text);
+        const size_t length = strlen(text);
         random_damage(&random, text, length);
         cJSON *ops = json_parse(text, length, &err);
         if (ops && edit_check(ops, &err) && edit_apply(wild, ops, NULL, &inverse, &err)) {

@@ -158,12 +158,12 @@ static double time_edit(const struct scene *scene, size_t size,
     cJSON *ops = cJSON_CreateArray(), *inverse;
 
     make(ops, size);
-    double start = now();
+    const double start = now();
     if (!edit_apply(copy, ops, NULL, &inverse, &err)) {
         fail_msg("%s: %s", err.place, err.message);
     }
     assert_true(edit_apply(copy, inverse, NULL, NULL, &err));
-    double taken = now() - start;
+    const double taken = now() - start;
     cJSON_Delete(ops);
     cJSON_Delete(inverse);
     scene_destroy(copy);
@@ -172,9 +172,9 @@ static double time_edit(const struct scene *scene, size_t size,
 
 static double time_parse(const char *text, size_t length)
 {
-    double start = now();
+    const double start = now();
     struct scene *scene = scene_parse(text, length, NULL);
-    double taken = now() - start;
+    const double taken = now() - start;
 
     assert_non_null(scene);
     scene_destroy(scene);
@@ -183,7 +183,7 @@ static double time_parse(const char *text, size_t length)
 
 static double time_print(const struct scene *scene)
 {
-    double start = now();
+    const double start = now();
 
     free(scene_print(scene, false));
     return now() - start;
@@ -191,7 +191,7 @@ static double time_print(const struct scene *scene)
 
 static double time_copy(const struct scene *scene)
 {
-    double start = now();
+    const double start = now();
 
     scene_destroy(scene_copy(scene));
     return now() - start;

@@ -329,7 +329,7 @@ static bool log_edit(struct logged *entry, struct random *random, struct scene *
                      struct history *steps)
 {
     cJSON *ops = random_edit(random, wild), *inverse;
-    bool ok = edit_apply(wild, ops, &entry->applied, &inverse, NULL);
+    const bool ok = edit_apply(wild, ops, &entry->applied, &inverse, NULL);
 
     if (ok) {
         history_depth(steps, entry->author, &entry->undo, &entry->redo);
@@ -351,8 +351,8 @@ static bool log_edit(struct logged *entry, struct random *random, struct scene *
 static bool log_move(struct logged *entry, struct scene *wild, struct history *steps)
 {
     struct history_move move;
-    bool ok = (entry->kind == HISTORY_UNDO ? history_undo
-                                           : history_redo)(steps, wild, entry->author, &move, NULL);
+    const bool ok = (entry->kind == HISTORY_UNDO ? history_undo : history_redo)(
+        steps, wild, entry->author, &move, NULL);
 
     if (ok) {
         entry->label = strdup(move.label);
@@ -443,7 +443,7 @@ static void a_log_gives_back_the_steps(void **state)
         struct scene *wild = random_document(&random, 1 + random_below(&random, 20));
         struct history *steps = history_create();
         struct logged log[LOGGED + 4];
-        size_t count = log_random(log, &random, wild, steps);
+        const size_t count = log_random(log, &random, wild, steps);
         char *text = scene_print(wild, false);
         struct scene *copy = scene_parse(text, strlen(text), &err);
         struct history *again = rebuild(log, count);

@@ -127,7 +127,7 @@ static void invalid_ones_are_refused(void **state)
 {
     (void)state;
     struct dirent **entries;
-    int count = scandir(folder, &entries, is_case, alphasort);
+    const int count = scandir(folder, &entries, is_case, alphasort);
 
     assert_int_equal(count, CASES);
     for (int i = 0; i < count; i++) {

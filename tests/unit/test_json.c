@@ -194,7 +194,7 @@ static void refuses_duplicate_members(void **state)
 
 static char *repeated(const char *head, const char *part, size_t count, const char *tail)
 {
-    size_t size = strlen(head) + count * strlen(part) + strlen(tail) + 1;
+    const size_t size = strlen(head) + count * strlen(part) + strlen(tail) + 1;
     char *text = malloc(size), *at = text;
 
     assert_non_null(text);
@@ -374,7 +374,7 @@ static void damaged_texts(void **state)
         for (size_t n = 1 + random_below(&random, 3); n > 0; n--) {
             damaged[random_below(&random, sizeof text - 1)] = (char)random_below(&random, 256);
         }
-        size_t length = sizeof text - 1 - (random_below(&random, 4) == 0);
+        const size_t length = sizeof text - 1 - (random_below(&random, 4) == 0);
         char *exact = malloc(length); /* so that reading beyond the end is seen */
         assert_non_null(exact);
         memcpy(exact, damaged, length);
@@ -410,7 +410,7 @@ static void errors_are_utf8(void **state)
     const char *const texts[] = {err.place, err.message};
     for (int i = 0; i < 2; i++) {
         for (const char *c = texts[i]; *c;) {
-            size_t count = utf8_sequence(c, strlen(c));
+            const size_t count = utf8_sequence(c, strlen(c));
             assert_true(count > 0);
             c += count;
         }

@@ -271,7 +271,7 @@ static void members_of_a_request_have_options(void **state)
         for (const struct param *param = types[t].type->params; param->name; param++) {
             char name[64];
             snprintf(name, sizeof name, "%s%s", types[t].prefix, param->name);
-            enum option option = option_find(name);
+            const enum option option = option_find(name);
             if (option == OPTION_COUNT) {
                 fail_msg("there is no option --%s", name);
             }
@@ -286,7 +286,7 @@ static void members_of_a_request_have_options(void **state)
 
 int main(void)
 {
-    int fd = mkstemp(config_path);
+    const int fd = mkstemp(config_path);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(table_is_consistent, set_up, tear_down),
         cmocka_unit_test_setup_teardown(every_command_reads_its_defaults, set_up, tear_down),
@@ -301,7 +301,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(help_asks_for_nothing_else, set_up, tear_down),
         cmocka_unit_test_setup_teardown(other_sources_name_their_place, set_up, tear_down),
     };
-    int failed = fd < 0 ? 1 : cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = fd < 0 ? 1 : cmocka_run_group_tests(tests, NULL, NULL);
 
     close(fd);
     unlink(config_path);

@@ -70,7 +70,7 @@ static bool read_text(const char *text, struct error *err)
     cJSON *json = json_text_parse(text, err);
 
     assert_non_null(json);
-    bool ok = record_read(&record, json, "/thing", err);
+    const bool ok = record_read(&record, json, "/thing", err);
     cJSON_Delete(json);
     return ok;
 }
@@ -194,7 +194,7 @@ static void long_texts(void **state)
     memset(text, 'x', sizeof text);
     text[201] = '\0';
     cJSON *json = cJSON_CreateString(text);
-    int title = record_type_find(&type, "title");
+    const int title = record_type_find(&type, "title");
     assert_false(record_set(&record, title, json, "/title", &err));
     assert_string_equal(err.message, "201 bytes are above the maximum 200");
     json->valuestring[200] = '\0';
@@ -418,7 +418,7 @@ static void copies_share_nothing(void **state)
     record_finish(&copy); /* twice is fine */
     assert_true(read_text("{'outline':[[1,2],[3,4],[5,6]]}", NULL));
     record_copy(&copy, &record);
-    int outline = record_type_find(&type, "outline");
+    const int outline = record_type_find(&type, "outline");
     assert_true(param_value_equal(&copy.values[outline], &record.values[outline]));
     assert_true(read_text("{'outline':[[1,2],[3,4],[5,7]]}", NULL));
     assert_false(param_value_equal(&copy.values[outline], &record.values[outline]));

@@ -33,7 +33,7 @@ static bool in_glsl(const char *name)
 {
     for (const struct glsl_file *file = glsl_files; file->name; file++) {
         for (const char *at = file->text; (at = strstr(at, name)); at++) {
-            char before = at > file->text ? at[-1] : ' ', after = at[strlen(name)];
+            const char before = at > file->text ? at[-1] : ' ', after = at[strlen(name)];
             if (before == ' ' && (after == '(' || after == '_')) {
                 return true;
             }
@@ -65,8 +65,8 @@ static void every_row_is_everywhere(void **state)
     const struct node_type *type;
 
     for (size_t i = 0; (type = node_type_at(i)); i++) {
-        bool own = type->kind != KIND_MODEL && type->kind != KIND_CODE &&
-                   type->kind != KIND_EQUATION && type->kind != KIND_SURFACE;
+        const bool own = type->kind != KIND_MODEL && type->kind != KIND_CODE &&
+                         type->kind != KIND_EQUATION && type->kind != KIND_SURFACE;
         want(!own || sdf_find(type), type, "function in C");
         want(!own || in_glsl(type->glsl), type, "function in GLSL");
         want(has_golden(type->record.name), type, "golden picture");

@@ -281,7 +281,7 @@ static void limits_of_the_tree(void **state)
 /* `count` of the list, each `value`. */
 static char *listed(const char *list, size_t count, const char *value)
 {
-    bool array = strcmp(list, "lights") == 0 || strcmp(list, "volumes") == 0;
+    const bool array = strcmp(list, "lights") == 0 || strcmp(list, "volumes") == 0;
     char *text = malloc(count * (strlen(value) + 20) + 200), *at = text;
 
     assert_non_null(text);

@@ -210,7 +210,7 @@ static void keeps_the_authors_of_the_log(void **state)
 {
     struct store_sqlite *db = open_database("g.sqlite");
     struct store_loaded loaded;
-    uint64_t last = STORE_LOG_KEPT + 500;
+    const uint64_t last = STORE_LOG_KEPT + 500;
     char author[16];
 
     (void)state;
