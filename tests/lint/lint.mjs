@@ -8,6 +8,7 @@ import path from 'node:path';
 
 import { checkCircles, checkDrawing, checkImports, checkIncludes, checkUnused } from './arrows.mjs';
 import { checkCommits } from './commits.mjs';
+import { missingConst } from './constants.mjs';
 import { missingBlank } from './declarations.mjs';
 import { OLD_GLSL_NAMES, OLD_NAMES } from './names.mjs';
 import { checkTidy } from './tidy.mjs';
@@ -234,6 +235,15 @@ function checkSizeof(files) {
     });
 }
 
+function checkConstants(files) {
+    for (const file of files.filter((name) => name.endsWith('.c'))) {
+        const text = fs.readFileSync(path.join(root, file), 'utf8');
+        for (const { at, names } of missingConst(text)) {
+            report(file, text.slice(0, at).split('\n').length, 'const', `${names.join(', ')}: const, since nothing writes it later`);
+        }
+    }
+}
+
 // --- names ---
 
 const escaped = (text) => text.replace(/[.*+?^${}()|[\]\\/]/g, '\\$&');
@@ -336,6 +346,7 @@ checkText(files);
 checkEscapes(files);
 checkTests(files);
 checkSizeof(files);
+checkConstants(files);
 checkNames(files);
 checkNamesGlsl(files);
 if (checkCommits(root, (commit, message) => faults.push(`${commit}: commit: ${message}`), process.argv[3]) === 0) {
