@@ -7,8 +7,8 @@
 #include <stdbool.h>
 
 /* As pthread_create(). Where both want a processor, the thread gets a third of the time of one that
- * draws. Returns when it has that priority, which may not be changed later (confine.h). False:
- * there is no thread. */
+ * draws. Returns when it has that priority, which may not be changed later (worker/confine.h).
+ * False: there is no thread. */
 bool patient_create(pthread_t *out, void *(*main)(void *), void *data);
 
 enum {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The renderer: draws scenes as seen by cameras. Other layers include only this header, worker.h
- * and pick.h. The renderer does not depend on HTTP, clients, sessions or users.
+/* The renderer: draws scenes as seen by cameras. Other layers include only this header,
+ * worker/worker.h and pick.h. The renderer does not depend on HTTP, clients, sessions or users.
  *
  * Threads: one thread owns a renderer and everything made from it. Internal threads compile.
  * Messages are logged through renderer_params.log alone. */

@@ -15,7 +15,7 @@
 #include "command.h"
 #include "local_render.h"
 #include "protocol/memory.h"
-#include "renderer/worker.h"
+#include "renderer/worker/worker.h"
 #include "server/embedded.h"
 #include "server/store/store.h"
 

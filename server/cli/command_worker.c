@@ -5,7 +5,7 @@
 
 #include "command.h"
 #include "local_render.h"
-#include "renderer/worker.h"
+#include "renderer/worker/worker.h"
 
 int command_worker(const struct options *options)
 {

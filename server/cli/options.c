@@ -15,7 +15,7 @@
 #include "protocol/memory.h"
 #include "protocol/surface.h"
 #include "renderer/renderer.h"
-#include "renderer/worker.h"
+#include "renderer/worker/worker.h"
 
 #define FOR(command) (1U << COMMAND_##command)
 

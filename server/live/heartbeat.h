@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* The front's end of the socket on which a worker answers pings (renderer/pulse.h). Used on the
- * supervisor's thread alone. */
+/* The front's end of the socket on which a worker answers pings (renderer/worker/pulse.h). Used on
+ * the supervisor's thread alone. */
 #ifndef SERVER_HEARTBEAT_H
 #define SERVER_HEARTBEAT_H
 
 #include <stdint.h>
 
-#include "renderer/worker.h"
+#include "renderer/worker/worker.h"
 
 struct heartbeat {
     int fd; /* -1: there is no worker, or it answers no more */

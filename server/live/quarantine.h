@@ -15,7 +15,7 @@
 #include "protocol/asset.h"
 #include "protocol/error.h"
 #include "protocol/limits.h"
-#include "renderer/worker.h"
+#include "renderer/worker/worker.h"
 #include "supervisor.h"
 
 struct hub;

@@ -8,7 +8,7 @@
 
 #include "protocol/asset.h"
 #include "protocol/render_request.h"
-#include "renderer/worker.h"
+#include "renderer/worker/worker.h"
 
 struct room;
 struct render_entry;

@@ -10,7 +10,7 @@
 
 #include <stdint.h>
 
-#include "renderer/worker.h"
+#include "renderer/worker/worker.h"
 #include "server/metrics.h"
 
 struct shared_buffer;

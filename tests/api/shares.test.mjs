@@ -23,7 +23,7 @@ const REST_MS = 600; // after which a picture at rest would have come
 const SHARE = 16; // pictures of one client in the queue
 const READERS = 50;
 const EACH = 10; // pictures of each of them
-const AHEAD = 300 / TILE_MS; // tiles by which urgent pictures may run ahead of one that is not (renderer/turns.h)
+const AHEAD = 300 / TILE_MS; // tiles by which urgent pictures may run ahead of one that is not (renderer/worker/turns.h)
 const ball = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
 
 let daemon;

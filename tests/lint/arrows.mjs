@@ -7,7 +7,7 @@ import { fileURLToPath } from 'node:url';
 
 // What every folder of server/ may use, and what it uses nothing of.
 const BASE = ['algebra', 'bases', 'clock', 'digest', 'directory', 'embedded', 'log', 'metrics', 'tasks'].map((name) => `server/${name}.h`);
-const WORKER = ['renderer/renderer.h', 'renderer/worker.h', 'renderer/pick.h'];
+const WORKER = ['renderer/renderer.h', 'renderer/worker/worker.h', 'renderer/pick.h'];
 
 // What files in a folder or below it may include besides that folder: other folders, single headers.
 export const INCLUDES = {
@@ -26,16 +26,23 @@ export const INCLUDES = {
         'protocol',
         ...['glsl', 'field', 'engine', 'gl', 'image', 'crash.h', 'patient.h'].map((name) => `renderer/${name}`),
     ],
+    'renderer/worker': [
+        'protocol',
+        ...['field', 'image', 'renderer.h', 'portrait.h', 'crash.h', 'patient.h', 'vigil.h'].map((name) => `renderer/${name}`),
+    ],
     server: ['protocol', ...WORKER],
     'server/net': ['protocol', ...BASE],
     'server/store': ['protocol', ...BASE],
     'server/live': ['protocol', ...WORKER, ...BASE, 'server/net', 'server/store'],
     'server/rest': ['protocol', ...BASE, 'server/net', 'server/live'],
     'server/serve': ['protocol', 'renderer/renderer.h', ...BASE, 'server/net', 'server/live', 'server/rest'],
-    'server/cli': ['protocol', 'renderer/renderer.h', 'renderer/worker.h', ...BASE, 'server/store', 'server/serve.h'],
+    'server/cli': ['protocol', 'renderer/renderer.h', 'renderer/worker/worker.h', ...BASE, 'server/store', 'server/serve.h'],
 };
 // What the files that all of server/ may use include themselves.
 const BASE_INCLUDES = ['protocol', ...BASE];
+
+// Programs and processes of their own: no other file of their layer includes them.
+const ENDS = ['renderer/spmd', 'renderer/algebra', 'renderer/worker'];
 
 // The system's headers, where not all may be used.
 const SYSTEM = {
@@ -59,7 +66,8 @@ export function checkIncludes(files, search, report) {
                 quote === '<'
                     ? !SYSTEM[layer] || SYSTEM[layer].test(name)
                     : !name.includes('/') || [layer, ...may].some((place) => within(name, place));
-            if (!allowed) {
+            const end = ENDS.find((place) => within(name, place) && within(file, path.dirname(place)) && !within(file, place));
+            if (!allowed || end) {
                 report(file, line, 'arrow', `${layer}/ may not include ${name}`);
             }
         });
@@ -149,6 +157,7 @@ export function drawing() {
         const columns = [...first, ...ranks(needs).map((names) => names.join('  ')), ...last];
         return `${top.padEnd(10)} ${columns.join('  <-  ')}`;
     };
+    const { worker, ...parts } = needsBelow('renderer');
     const layers = ['protocol', 'renderer', 'server'];
     const tops = layers.map((name) => [name, INCLUDES[name].map((other) => other.split('/')[0])]);
     const folders = Object.entries(INCLUDES).filter(([name]) => name.includes('/'));
@@ -160,7 +169,7 @@ export function drawing() {
         '```',
         row('', Object.fromEntries(tops), [], []) + `${' '.repeat(8)}protocol  <-  (schema)  <-  web`,
         '',
-        row('renderer/', needsBelow('renderer'), [], ['files of renderer/']),
+        row('renderer/', parts, [], ['files of renderer/', ...(worker ? ['worker'] : [])]),
         row('server/', needsBelow('server'), [BASE.map((name) => path.basename(name, '.h')).join('  ')], []),
         row('web/src/', IMPORTS, [], []),
         '```',

@@ -26,7 +26,7 @@
 
 #include <cmocka.h>
 
-#include "renderer/confine.h"
+#include "renderer/worker/confine.h"
 
 enum { NOT_CONFINED = 250, NEXT_CALL = 451 };
 

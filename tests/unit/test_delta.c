@@ -13,8 +13,8 @@
 #include <jpeglib.h>
 
 #include "protocol/memory.h"
-#include "renderer/delta.h"
-#include "renderer/kept_streams.h"
+#include "renderer/worker/delta.h"
+#include "renderer/worker/kept_streams.h"
 #include "server/net/send_queue.h"
 #include "tests/support/picture.h"
 #include "tests/support/random_scene.h"

@@ -12,7 +12,7 @@
 #include <zlib.h>
 
 #include "protocol/memory.h"
-#include "renderer/depths.h"
+#include "renderer/worker/depths.h"
 
 enum { WIDTH = 301, HEIGHT = 203, SIDE = 2, ACROSS = (WIDTH + 1) / 2, DOWN = (HEIGHT + 1) / 2 };
 

@@ -15,7 +15,7 @@
 #include <cmocka.h>
 
 #include "protocol/memory.h"
-#include "renderer/encode_thread.h"
+#include "renderer/worker/encode_thread.h"
 
 enum { WIDTH = 640, HEIGHT = 120, BAND = 30 }; /* too many for the owner to encode */
 

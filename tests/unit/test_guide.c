@@ -14,7 +14,7 @@
 
 #include "protocol/memory.h"
 #include "renderer/field/field.h"
-#include "renderer/guide.h"
+#include "renderer/worker/guide.h"
 #include "tests/support/json_text.h"
 
 enum {

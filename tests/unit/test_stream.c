@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "protocol/memory.h"
-#include "renderer/stream_encoder.h"
+#include "renderer/worker/stream_encoder.h"
 #include "server/net/send_queue.h"
 
 /* --- an encoder whose pictures depend on each other --- */

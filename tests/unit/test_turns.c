@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "renderer/turns.h"
+#include "renderer/worker/turns.h"
 
 enum { MOVING, STILL, LOSSLESS, IMAGE };
 

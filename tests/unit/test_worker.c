@@ -20,7 +20,7 @@
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
-#include "renderer/worker.h"
+#include "renderer/worker/worker.h"
 #include "tests/support/json_text.h"
 #include "tests/support/picture.h"
 #include "tests/support/text_file.h"

@@ -15,7 +15,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "crash.h"
+#include "renderer/crash.h"
 #include "worker_internal.h"
 
 enum {

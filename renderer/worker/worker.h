@@ -4,9 +4,9 @@
 #define RENDERER_WORKER_H
 
 #include "confine.h"
-#include "crash.h"
-#include "renderer.h"
-#include "vigil.h"
+#include "renderer/crash.h"
+#include "renderer/renderer.h"
+#include "renderer/vigil.h"
 #include "worker_protocol.h"
 
 enum { WORKER_FD = 3, WORKER_PULSE_FD = 4 }; /* where the front leaves its child's sockets */

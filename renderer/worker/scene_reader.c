@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "crash.h"
-#include "patient.h"
-#include "portrait.h"
 #include "protocol/memory.h"
+#include "renderer/crash.h"
 #include "renderer/field/field.h"
+#include "renderer/patient.h"
+#include "renderer/portrait.h"
 
 struct scene_reader {
     pthread_t thread;

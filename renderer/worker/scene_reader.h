@@ -4,7 +4,7 @@
 #ifndef RENDERER_SCENE_READER_H
 #define RENDERER_SCENE_READER_H
 
-#include "renderer.h"
+#include "renderer/renderer.h"
 
 struct scene_reader;
 

@@ -9,8 +9,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "patient.h"
 #include "protocol/memory.h"
+#include "renderer/patient.h"
 
 enum {
     SLICE_PIXELS = 1 << 16, /* encoded at a time: some 8 ms of PNG */

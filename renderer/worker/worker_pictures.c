@@ -6,12 +6,12 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "crash.h"
 #include "delta.h"
 #include "depths.h"
 #include "guide.h"
-#include "patient.h"
 #include "protocol/memory.h"
+#include "renderer/crash.h"
+#include "renderer/patient.h"
 #include "worker_internal.h"
 
 enum {

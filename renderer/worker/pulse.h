@@ -5,7 +5,7 @@
 #ifndef RENDERER_PULSE_H
 #define RENDERER_PULSE_H
 
-#include "renderer.h"
+#include "renderer/renderer.h"
 
 struct pulse;
 
