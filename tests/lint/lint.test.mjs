@@ -100,6 +100,7 @@ const BREAKS = [
     ['name', 'renderer/draw/draw.h', `${C}#include "frame_block.h"\n`],
     ['format', 'renderer/draw/draw.c', `${C}int f(void) { return 0; }\n`],
     ['tidy', 'server/live/hub.c', `${C}int f(int a)\n{\n    return a == 1 || a == 1;\n}\n`],
+    ['tidy', 'server/live/stream.c', `${C}int f(int *a)\n{\n    return *a;\n}\n`],
     ['tidy', 'server/live/room.c', `${C}int f(int a)\n{\n    if (a > 0);\n    return a;\n}\n`],
     ['shellcheck', 'deploy/run.sh', `#!/bin/sh\n# SPDX-License-Identifier: MIT\necho $1\n`],
 ];
