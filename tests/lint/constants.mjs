@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Locals of C functions that are written only where they are declared have to be const. The rule holds for
-// numbers, truth values and enumerators. It leaves out pointers, and structs: a function that is passed an
-// array in a struct may write it.
+// numbers, truth values and enumerators. It leaves out structs, because a function that gets an array in a
+// struct may write it, and pointers, because a function may change what a struct points to.
 const SCALAR =
     /^(?:(?:unsigned|signed|long|short) )*(?:bool|char|short|int|long|unsigned|float|double|\w+_t|GL(?:u?int|enum|sizei|sizeiptr|float|boolean)|enum \w+) (?=\w+ = )/;
 
