@@ -345,6 +345,7 @@ static void put_into_chain(struct stream *stream, const struct packet_frame *fra
     }
     chain->order = frame->job;
     chain->looks = stream->job_looks;
+    chain->delta = !frame->key;
     chain->link = frame->key ? 0 : (uint8_t)(chain->link + 1);
     header->chain = (uint8_t)stream->job_stage;
     header->link = chain->link;
@@ -489,6 +490,15 @@ static void put_depth_beside(struct record *picture, enum aov other)
     record_put_text(picture, "aov", text);
 }
 
+/* By the still picture, which comes before the last one: then most of that is copied, and all
+ * samples of the rest come soon. */
+static bool little_changed(const struct stream *stream)
+{
+    const struct stream_chain *still = &stream->chains[STREAM_STILL];
+
+    return still->delta && still->looks == stream->looks;
+}
+
 /* As what differs from the last picture of the stage, where the client has it and the view is the
  * same. What that was sent as and lost is in the queue. */
 static void put_stream(const struct session *session, const struct stream_view *view,
@@ -507,7 +517,7 @@ static void put_stream(const struct session *session, const struct stream_view *
     record_put_text(&out->delivery, "stream", name);
     record_put(&out->delivery, "base", follows ? chain->order : 0);
     record_put(&out->delivery, "whole", follows && becomes_poster(session, stage, out->codec));
-    if (follows) { /* what has not changed is copied, or not sent: all samples come soon */
+    if (follows && little_changed(session->stream)) {
         record_put(&out->delivery, "in_rounds", false);
     }
 }

@@ -48,6 +48,7 @@ struct stream_chain {
     uint32_t order; /* of the last one that was sent; 0: none */
     uint32_t looks; /* the view that it shows */
     uint8_t link;   /* deltas sent since the key */
+    bool delta;     /* the last one is what differs */
 };
 
 struct stream_view {
