@@ -167,13 +167,13 @@ test('a client has a quarter of the queue, and is told when to ask again', async
     await until(async () => (await counter(daemon, 'render_queue')) === 0, 'the queue to empty');
 });
 
-test('threads that encode for later, read files or read documents give way to those that draw', () => {
+test('threads that encode for later, read files, read documents or free scenes give way to those that draw', () => {
     const worker = daemon.worker();
     const tasks = fs.readdirSync(`/proc/${worker}/task`);
     // The 19th field is the priority; the second one ends with the last bracket.
     const nice = tasks.map((task) => Number(fs.readFileSync(`/proc/${worker}/task/${task}/stat`, 'utf8').split(') ')[1].split(' ')[16]));
     const own = nice[tasks.indexOf(String(worker))];
-    assert.equal(nice.filter((one) => one === own + 5).length, 3, `${nice}`); // 19: those of the driver
+    assert.equal(nice.filter((one) => one === own + 5).length, 4, `${nice}`); // 19: those of the driver
 });
 
 /** What a client at another address is told. */
