@@ -12,30 +12,11 @@
 #include "room_state.h"
 #include "server/clock.h"
 #include "session.h"
-
-/* Side lengths of moving pictures, relative to the view. */
-static const double scales[] = {1, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125, 0.09375, 0.0625};
-enum {
-    SCALE_COUNT = sizeof scales / sizeof *scales,
-    USUAL_STEPS = 5,      /* scales for all views; the others are for large ones */
-    FIRST_PIXELS = 57600, /* of a moving picture at most, where nothing is known of the scene */
-    LEAST_PIXELS = 10000, /* of a moving picture with one of the other scales */
-};
+#include "stream_size.h"
 
 /* Who has not acknowledged a frame yet shares one client's drawing time with all others of these:
  * however many come at once, those who are there keep most of it. */
 #define NEWCOMERS "newcomers"
-
-struct preference_rule {
-    double target_ms; /* what a moving picture may take */
-    int last_step;    /* how far it may shrink */
-};
-
-static const struct preference_rule preference_rules[] = {
-    [PREFER_AUTO] = {50, SCALE_COUNT - 1},
-    [PREFER_SMOOTH] = {25, SCALE_COUNT - 1},
-    [PREFER_SHARP] = {120, 2},
-};
 
 /* How each picture is drawn and encoded. */
 struct stage_rule {
@@ -210,99 +191,6 @@ static bool line_is_free(const struct session *session, enum stream_stage stage)
            (stage == STREAM_MOVING && !precious);
 }
 
-/* --- how large a moving picture is --- */
-
-/* What is known of the scene, by this session or by others; 0: nothing. */
-static double ns_per_pixel(const struct session *session)
-{
-    const double own = session->stream->ns_per_pixel;
-
-    return own > 0 ? own : session->room->ns_per_pixel;
-}
-
-static double pixels_of(const struct stream_view *view, int step)
-{
-    const struct record *picture = &view->picture.picture;
-
-    return record_number(picture, "width") * record_number(picture, "height") * scales[step] *
-           scales[step];
-}
-
-static double predicted_ms(const struct session *session, const struct stream_view *view, int step)
-{
-    return ns_per_pixel(session) * pixels_of(view, step) * 1e-6;
-}
-
-static int last_step(const struct stream_view *view)
-{
-    int step = preference_rules[view->preference].last_step;
-
-    while (step >= USUAL_STEPS && pixels_of(view, step) < LEAST_PIXELS) {
-        step--;
-    }
-    return step;
-}
-
-static bool is_too_large(const struct session *session, const struct stream_view *view, int step)
-{
-    const double target_ms = preference_rules[view->preference].target_ms;
-
-    if (ns_per_pixel(session) == 0) { /* those who wait share the machine with this one */
-        const int sharing = 1 + render_queue_moving(session->hub->render_queue);
-        return pixels_of(view, step) > (double)FIRST_PIXELS / sharing;
-    }
-    /* Only a clear gain makes it larger again, lest the size jumps to and fro. */
-    return predicted_ms(session, view, step) >
-           target_ms * (step < session->stream->step ? 0.8 : 1.1);
-}
-
-static void choose_step(struct session *session, const struct stream_view *view)
-{
-    int step = 0;
-
-    while (step < last_step(view) && is_too_large(session, view, step)) {
-        step++;
-    }
-    session->stream->step = step;
-}
-
-/* The step of the picture between moving and still ones; the current one: none is worth while. */
-static int larger_step(const struct session *session, const struct stream_view *view)
-{
-    const int moving = session->stream->step;
-    int step = 0;
-
-    while (step < moving && predicted_ms(session, view, step) > STREAM_LARGER_MS) {
-        step++;
-    }
-    return step ? step : moving; /* 0: the still picture itself comes as soon */
-}
-
-static double scale_of(const struct session *session, const struct stream_view *view,
-                       enum stream_stage stage)
-{
-    return stage == STREAM_GUIDE    ? fmin(1, sqrt(LIMIT_GUIDE_PIXELS / pixels_of(view, 0)))
-           : stage >= STREAM_STILL  ? 1
-           : stage == STREAM_MOVING ? scales[session->stream->step]
-                                    : scales[larger_step(session, view)];
-}
-
-static double mixed(double known, double took)
-{
-    return known > 0 ? known + 0.3 * (took - known) : took;
-}
-
-/* Waiting for others' pictures counts: who shares the machine gets smaller pictures, not fewer. */
-static void learn(struct session *session)
-{
-    struct stream *stream = session->stream;
-    const double took =
-        (double)(clock_us() - stream->job_asked_us) * 1e3 / (double)stream->job_pixels;
-
-    stream->ns_per_pixel = mixed(stream->ns_per_pixel, took);
-    session->room->ns_per_pixel = mixed(session->room->ns_per_pixel, took);
-}
-
 /* --- asking and receiving --- */
 
 /* The room of a frame that is shown, or given up, is free. */
@@ -444,7 +332,7 @@ static void on_picture(void *data, const struct picture_answer *answer, const st
         return;
     }
     if (stream->job_stage == STREAM_MOVING) {
-        learn(session);
+        stream_size_learn(session);
     }
     send_frame(session, answer);
     if (stream->stale && session->room->shown > stream->revision) {
@@ -527,7 +415,7 @@ static void make_request(struct session *session, const struct stream_view *view
                          enum stream_stage stage, struct render_request *out)
 {
     const struct stage_rule *rule = &stage_rules[stage];
-    const double scale = scale_of(session, view, stage);
+    const double scale = stream_size_scale(session, view, stage);
     struct record *picture = &out->picture, *delivery = &out->delivery;
 
     render_request_copy(out, &view->picture);
@@ -559,7 +447,7 @@ static void ask(struct session *session, enum stream_stage stage)
     struct stream *stream = session->stream;
     const struct stream_view *view = newest_view(stream);
 
-    choose_step(session, view);
+    stream_size_choose(session, view);
     struct render_order order = {
         .room = session->room,
         .priority = stage_rules[stage].priority,
@@ -592,7 +480,7 @@ static enum stream_stage next_stage(const struct session *session, const struct 
 {
     const enum stream_stage next = session->stream->done + 1;
 
-    if (next == STREAM_LARGER && larger_step(session, view) == session->stream->step) {
+    if (next == STREAM_LARGER && !stream_size_has_larger(session, view)) {
         return STREAM_STILL;
     }
     return next == STREAM_GUIDE && !view->guides ? STREAM_LOSSLESS : next;

@@ -98,6 +98,6 @@ test('edits made while the daemon is away arrive when it is back', async () => {
     const answer = await fetch(`${stage.daemon.url}/v1/scenes/${id}`);
     assert.equal(answer.headers.get('etag'), '"5"', 'each edit once');
     /* The browser itself reports sockets that it could not open. */
-    page.problems = page.problems.filter((text) => !/WebSocket|ERR_CONNECTION_REFUSED/.test(text));
+    page.problems = page.problems.filter((text) => !/WebSocket|ERR_CONNECTION_(REFUSED|RESET)/.test(text));
     await closePage(page);
 });
