@@ -3,6 +3,7 @@
 #include "surface.h"
 
 #include "json.h"
+#include "limits.h"
 #include "param.h"
 #include "record.h"
 
@@ -24,8 +25,46 @@ const struct record_type surface_question_type = {
     (const struct param[]){
         {"method", PARAM_ENUM, .def = {SURFACE_BY_NULLSPACE}, .choices = surface_methods,
          .doc = SURFACE_METHOD_DOC},
+        {"x", PARAM_EQUATION, .doc = "An expression in two of the letters s, t, u and v."},
+        {"y", PARAM_EQUATION, .doc = "The same."},
+        {"z", PARAM_EQUATION, .doc = "The same."},
+        {"s", PARAM_VEC2, .doc = "From where to where s goes. With both ranges the answer tells "
+                                 "how much of the implicit surface the patch covers."},
+        {"t", PARAM_VEC2, .doc = "The same of t."},
+        {"u", PARAM_VEC2, .doc = "The same of u."},
+        {"v", PARAM_VEC2, .doc = "The same of v."},
+        {"size", PARAM_VEC3, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE,
+         .zero = "around the patch",
+         .doc = "Full lengths of the box about the origin that cuts the implicit surface; where "
+                "one is 0, the box goes around the patch."},
         {NULL}}};
 /* clang-format on */
+
+bool surface_question_check(const struct record *asked, struct error *err)
+{
+    for (int i = 0; i < SURFACE_PARTS; i++) {
+        if (!record_is_set(asked, surface_names[i])) {
+            char place[ERROR_PLACE_BYTES];
+            return error_set(err, ERROR_INVALID, error_place(place, "", surface_names[i]),
+                             "is missing");
+        }
+    }
+    return true;
+}
+
+cJSON *surface_question_json(const struct record *asked)
+{
+    cJSON *json = cJSON_CreateObject();
+
+    for (int i = 0; i < SURFACE_MEMBERS; i++) {
+        if (record_is_set(asked, surface_names[i])) {
+            cJSON_AddItemToObject(
+                json, surface_names[i],
+                record_get(asked, record_type_find(asked->type, surface_names[i])));
+        }
+    }
+    return json;
+}
 
 static bool read_part(const char **out, const cJSON *json, int member, const char *place,
                       struct error *err)

@@ -33,9 +33,13 @@ extern const char *const surface_methods[]; /* NULL at the end */
     "By linear algebra, by resultants, or by a Groebner basis: of the graded ideal, or of the "    \
     "one with a letter that stands for 1 / denominator."
 
-struct record_type;
-/* What is asked beside the parts: `method`, one of these. */
+/* What is asked: the method, the parts, and where the ranges are known, these and the clip. */
+struct record;
 extern const struct record_type surface_question_type;
+/* False: a part is missing. The place of an error is that of the member. */
+bool surface_question_check(const struct record *asked, struct error *err);
+/* The parts, with ranges of letters that have some: as surface_read takes it. Caller deletes. */
+cJSON *surface_question_json(const struct record *asked);
 
 struct surface {
     const char *parts[SURFACE_PARTS]; /* they stay in the JSON; all NULL: there is none */

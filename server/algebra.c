@@ -197,18 +197,15 @@ static bool ask(struct algebra *algebra, const struct question *question, cJSON 
     return *out != NULL;
 }
 
-bool algebra_implicitize(struct algebra *algebra, enum surface_method method,
-                         const char *const texts[3], cJSON **out, struct error *err)
+bool algebra_implicitize(struct algebra *algebra, const cJSON *asked, cJSON **out,
+                         struct error *err)
 {
-    char *argv[] = {NULL,
-                    "implicitize",
-                    (char *)surface_methods[method],
-                    (char *)texts[0],
-                    (char *)texts[1],
-                    (char *)texts[2],
-                    NULL};
+    char *text = json_print(asked, false);
+    char *argv[] = {NULL, "implicitize", text, NULL};
+    const bool ok = ask(algebra, &(struct question){.argv = argv}, out, err);
 
-    return ask(algebra, &(struct question){.argv = argv}, out, err);
+    free(text);
+    return ok;
 }
 
 static char *print_params(const struct record *params)
@@ -221,11 +218,13 @@ static char *print_params(const struct record *params)
     return text;
 }
 
-static void read_proof(const cJSON *answer, struct algebra_proof *out)
+static void read_proof(cJSON *answer, struct algebra_proof *out)
 {
     const char *verdict = text_of(answer, "verdict");
 
-    out->verdict = SURFACE_NOT_CHECKED;
+    *out = (struct algebra_proof){.verdict = SURFACE_NOT_CHECKED,
+                                  .coverage =
+                                      cJSON_DetachItemFromObjectCaseSensitive(answer, "coverage")};
     for (int i = 0; i < SURFACE_NOT_CHECKED; i++) {
         if (strcmp(verdict, surface_verdicts[i]) == 0) {
             out->verdict = (enum surface_verdict)i;

@@ -14,10 +14,11 @@
 struct algebra;
 
 struct algebra *algebra_create(struct error *err);
-/* Waits for the process. The caller deletes *out: its answer as main.c of renderer/algebra has it.
- * The place of an error is "x", "y", "z" or "". Any thread, one at a time. */
-bool algebra_implicitize(struct algebra *algebra, enum surface_method method,
-                         const char *const texts[3], cJSON **out, struct error *err);
+/* `asked` is JSON of surface_question_type. Waits for the process. The caller deletes *out: its
+ * answer as main.c of renderer/algebra has it. The place of an error is a member's name, or "". Any
+ * thread, one at a time. */
+bool algebra_implicitize(struct algebra *algebra, const cJSON *asked, cJSON **out,
+                         struct error *err);
 /* The same for a question of ideal_type. `tell` gets the line of each step, in the caller's thread;
  * algebra_cancel with the same `data` ends the process. */
 bool algebra_groebner(struct algebra *algebra, const struct record *asked,
@@ -29,9 +30,11 @@ void algebra_cancel(struct algebra *algebra, const void *data);
 struct algebra_proof {
     enum surface_verdict verdict;
     char reason[512];
+    cJSON *coverage; /* where it is verified: coverage_answer of renderer/algebra; else NULL */
 };
 /* Whether the equation of an `implicit` with these parameters is that of its parametric surface.
- * Where time or memory end it, it is not checked. Waits, as above. */
+ * Where time or memory end it, it is not checked. The caller deletes the coverage. Waits, as
+ * above. */
 bool algebra_verify(struct algebra *algebra, const struct record *params, struct algebra_proof *out,
                     struct error *err);
 /* Calls `run` once on a thread where it may call these two; clients take turns. `dropped`

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* fieldcast-algebra implicitize METHOD X Y Z: the equation of a parametric surface and its
- * certificate as JSON, or {"error": {kind, place, line, column, message}}.
+/* fieldcast-algebra implicitize ASKED: the equation of a parametric surface and its certificate as
+ * JSON, or {"error": {kind, place, line, column, message}}. ASKED is JSON of surface_question_type.
+ * With ranges also how much of the implicit surface the patch covers (coverage.h), and the patch
+ * alone as a node (trim.h).
  * fieldcast-algebra verify PARAMS: {"verdict", "reason"} of the parameters of an `implicit`, which
- * are JSON.
+ * are JSON; with "coverage" where it is verified.
  * fieldcast-algebra groebner ASKED: a line of JSON for each step, then the basis (workbench.h).
  * A program of its own: FLINT ends the process when memory is short, and no other program links it.
  * server/algebra.h starts it, within limits. */
@@ -12,13 +14,23 @@
 
 #include "certificate.h"
 #include "coefficients.h"
+#include "coverage.h"
 #include "degree.h"
 #include "eliminate.h"
 #include "protocol/equation.h"
 #include "protocol/json.h"
 #include "protocol/nodes.h"
+#include "trim.h"
 #include "verify.h"
 #include "workbench.h"
+
+struct question {
+    const struct record *asked; /* surface_question_type */
+    const char *texts[SURFACE_PARTS];
+    cJSON *parametric;
+    struct surface surface; /* that, where it has ranges */
+    bool ranged;
+};
 
 struct result {
     const char *method; /* of surface_methods */
@@ -76,7 +88,7 @@ static cJSON *letters(const struct patch *patch)
 }
 
 static cJSON *certificate(const struct result *result, const struct patch *patch,
-                          const char *const texts[3])
+                          const char *const texts[SURFACE_PARTS])
 {
     const double seconds = (double)clock() / CLOCKS_PER_SEC;
     cJSON *json = cJSON_CreateObject();
@@ -121,16 +133,42 @@ static void check_drawable(const char *text, cJSON *json)
     free(equation);
 }
 
+/* What ranges add: how much of the implicit surface the patch covers, and the patch alone. */
+static void answer_ranges(const struct result *result, const struct question *question,
+                          const char *equation, cJSON *json)
+{
+    const double *asked = record_vector(question->asked, "size");
+    double size[3];
+    struct equation_clip clip = {.ball = false};
+    struct coverage coverage;
+
+    coverage_size(&question->surface, size);
+    for (int i = 0; i < 3; i++) {
+        size[i] = asked[i] > 0 ? asked[i] : size[i];
+        clip.half[i] = size[i] / 2;
+    }
+    coverage_measure(result->equation, result->space, &question->surface, &clip, &coverage);
+    cJSON *told = coverage_answer(&coverage);
+    cJSON_AddItemToObject(told, "size", cJSON_CreateDoubleArray(size, 3));
+    cJSON_AddItemToObject(json, "coverage", told);
+    if (cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(json, "drawable"))) {
+        cJSON_AddItemToObject(json, "trimmed", trim_node(equation, question->parametric, size));
+    }
+}
+
 static cJSON *answer(const struct result *result, const struct patch *patch,
-                     const char *const texts[3])
+                     const struct question *question)
 {
     static const char *axes[] = {"x", "y", "z"};
     char *equation = fmpz_mpoly_get_str_pretty(result->equation, axes, result->space);
     cJSON *json = cJSON_CreateObject();
 
     cJSON_AddStringToObject(json, "equation", equation);
-    cJSON_AddItemToObject(json, "certificate", certificate(result, patch, texts));
+    cJSON_AddItemToObject(json, "certificate", certificate(result, patch, question->texts));
     check_drawable(equation, json);
+    if (question->ranged) {
+        answer_ranges(result, question, equation, json);
+    }
     flint_free(equation);
     return json;
 }
@@ -148,23 +186,70 @@ static cJSON *answer_error(const struct error *err)
     return json;
 }
 
-static cJSON *find_equation(const char *method, const char *const texts[3])
+/* Each letter that the parts are in has to have a range. */
+static bool check_ranges(const struct question *question, const struct patch *patch,
+                         struct error *err)
+{
+    for (int i = 0; question->ranged && i < SURFACE_LETTERS; i++) {
+        if (patch->uses[i] && !question->surface.ranges[i].set) {
+            return error_set(err, ERROR_INVALID, surface_names[SURFACE_PARTS + i],
+                             "has no range, but another letter has");
+        }
+    }
+    return true;
+}
+
+static cJSON *find_equation(const struct question *question)
 {
     struct error err = {0};
     struct patch patch;
-    struct result result = {.method = method};
+    struct result result = {.method =
+                                surface_methods[(int)record_number(question->asked, "method")]};
 
-    if (!patch_read(&patch, texts, &err)) {
+    if (!patch_read(&patch, question->texts, &err)) {
         return answer_error(&err);
     }
     fmpz_mpoly_ctx_init(result.space, 3, ORD_DEGLEX);
     fmpz_mpoly_init(result.equation, result.space);
-    cJSON *json =
-        implicitize(&patch, &result, &err) ? answer(&result, &patch, texts) : answer_error(&err);
+    cJSON *json = check_ranges(question, &patch, &err) && implicitize(&patch, &result, &err)
+                      ? answer(&result, &patch, question)
+                      : answer_error(&err);
     fmpz_mpoly_clear(result.equation, result.space);
     fmpz_mpoly_ctx_clear(result.space);
     patch_clear(&patch);
     return json;
+}
+
+static bool read_ranges(struct question *out, struct error *err)
+{
+    for (int i = SURFACE_PARTS; i < SURFACE_MEMBERS; i++) {
+        out->ranged = out->ranged || record_is_set(out->asked, surface_names[i]);
+    }
+    return !out->ranged || surface_read(&out->surface, out->parametric, "", err);
+}
+
+static cJSON *implicitize_asked(const char *text)
+{
+    struct error err = {0};
+    struct record asked;
+    struct question question = {.asked = &asked};
+    cJSON *json = json_parse(text, strlen(text), &err);
+
+    record_init(&asked, &surface_question_type);
+    bool ok = json && record_read(&asked, json, "", &err) && surface_question_check(&asked, &err);
+    for (int i = 0; ok && i < SURFACE_PARTS; i++) {
+        question.texts[i] = record_text(&asked, surface_names[i]);
+    }
+    question.parametric = surface_question_json(&asked);
+    ok = ok && read_ranges(&question, &err);
+    if (!ok && err.place[0] == '/') { /* as those of texts */
+        memmove(err.place, err.place + 1, strlen(err.place));
+    }
+    cJSON *answer = ok ? find_equation(&question) : answer_error(&err);
+    cJSON_Delete(question.parametric);
+    record_finish(&asked);
+    cJSON_Delete(json);
+    return answer;
 }
 
 /* --- proofs --- */
@@ -182,6 +267,9 @@ static cJSON *answer_verdict(const struct verdict *verdict)
     cJSON_AddStringToObject(json, "verdict", surface_verdicts[verdict->verdict]);
     cJSON_AddStringToObject(json, "reason", reason);
     free(reason);
+    if (verdict->verdict == SURFACE_VERIFIED) {
+        cJSON_AddItemToObject(json, "coverage", coverage_answer(&verdict->coverage));
+    }
     return json;
 }
 
@@ -225,16 +313,15 @@ int main(int argc, char **argv)
 {
     cJSON *json;
 
-    if (argc == 6 && strcmp(argv[1], "implicitize") == 0) {
-        json = find_equation(argv[2], (const char *const[]){argv[3], argv[4], argv[5]});
+    if (argc == 3 && strcmp(argv[1], "implicitize") == 0) {
+        json = implicitize_asked(argv[2]);
     } else if (argc == 3 && strcmp(argv[1], "verify") == 0) {
         json = verify_params(argv[2]);
     } else if (argc == 3 && strcmp(argv[1], "groebner") == 0) {
         json = find_basis(argv[2]);
     } else {
-        fputs(
-            "usage: fieldcast-algebra implicitize METHOD X Y Z | verify PARAMS | groebner ASKED\n",
-            stderr);
+        fputs("usage: fieldcast-algebra implicitize ASKED | verify PARAMS | groebner ASKED\n",
+              stderr);
         return 2;
     }
     char *text = json_print(json, false);

@@ -177,6 +177,18 @@ static bool prove(struct proof *p, const struct surface *surface, const struct r
 
 /* --- all of it --- */
 
+static struct equation_clip clip_of(const struct record *params)
+{
+    const double radius = record_number(params, "radius");
+    const double *size = record_vector(params, "size");
+    struct equation_clip clip = {.ball = record_is(params, "clip", "ball")};
+
+    for (int i = 0; i < 3; i++) {
+        clip.half[i] = clip.ball ? radius : size[i] / 2;
+    }
+    return clip;
+}
+
 static void verify_surface(const struct record *params, const struct surface *surface,
                            struct verdict *out)
 {
@@ -188,7 +200,9 @@ static void verify_surface(const struct record *params, const struct surface *su
     fmpz_mpoly_ctx_init(p.space, 3, ORD_DEGLEX);
     fraction_init(&p.equation, p.space);
     if (prove(&p, surface, params)) {
+        const struct equation_clip clip = clip_of(params);
         out->verdict = SURFACE_VERIFIED;
+        coverage_measure(p.equation.over, p.space, surface, &clip, &out->coverage);
         error_set(&out->reason, ERROR_NONE, "", "degree %ld, %ld terms",
                   fmpz_mpoly_total_degree_si(p.equation.over, p.space),
                   fmpz_mpoly_length(p.equation.over, p.space));

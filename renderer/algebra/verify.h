@@ -5,12 +5,14 @@
 #ifndef RENDERER_ALGEBRA_VERIFY_H
 #define RENDERER_ALGEBRA_VERIFY_H
 
+#include "coverage.h"
 #include "protocol/record.h"
 #include "protocol/surface.h"
 
 struct verdict {
     enum surface_verdict verdict;
-    struct error reason; /* where it is verified its message tells degree and terms */
+    struct error reason;      /* where it is verified its message tells degree and terms */
+    struct coverage coverage; /* where it is verified: within the node's clip */
 };
 
 /* `params` are those of an `implicit`. */

@@ -30,8 +30,11 @@ static void tell(struct proving *proving, const char *place, const struct algebr
     const bool checked = proof->verdict != SURFACE_NOT_CHECKED;
     FILE *out = checked ? stdout : stderr;
 
-    fprintf(out, "%s%s: %s: %s: %s\n", checked ? "" : "fieldcast: warning: ", proving->file, place,
-            surface_verdicts[proof->verdict], proof->reason);
+    const cJSON *covered = cJSON_GetObjectItemCaseSensitive(proof->coverage, "text");
+
+    fprintf(out, "%s%s: %s: %s: %s%s%s\n", checked ? "" : "fieldcast: warning: ", proving->file,
+            place, surface_verdicts[proof->verdict], proof->reason, covered ? "; " : "",
+            covered ? covered->valuestring : "");
     proving->fit = proving->fit && proof->verdict != SURFACE_DOES_NOT_FIT;
 }
 
@@ -49,6 +52,7 @@ static void prove(struct proving *proving, const struct node *node)
         snprintf(proof.reason, sizeof proof.reason, "%s", err.message);
     }
     tell(proving, place, &proof);
+    cJSON_Delete(proof.coverage);
 }
 
 static void prove_tree(struct proving *proving, const struct node *top)

@@ -249,6 +249,23 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_METHOD] = {"method", 0, "WORD", OPTION_CHOICE, .choice = method_choice,
         .fallback = "nullspace", .commands = FOR(IMPLICITIZE),
         .doc = SURFACE_METHOD_DOC},
+    [OPTION_RANGE_S] = {"range-s", 's', "LOW,HIGH", OPTION_PAIR, COORDINATE,
+        .commands = FOR(IMPLICITIZE),
+        .doc = "From where to where s goes. With the ranges of both letters the answer tells how "
+               "much of the implicit surface the patch covers, and has the patch alone as a node."},
+    [OPTION_RANGE_T] = {"range-t", 't', "LOW,HIGH", OPTION_PAIR, COORDINATE,
+        .commands = FOR(IMPLICITIZE),
+        .doc = "The same of t."},
+    [OPTION_RANGE_U] = {"range-u", 'u', "LOW,HIGH", OPTION_PAIR, COORDINATE,
+        .commands = FOR(IMPLICITIZE),
+        .doc = "The same of u."},
+    [OPTION_RANGE_V] = {"range-v", 'v', "LOW,HIGH", OPTION_PAIR, COORDINATE,
+        .commands = FOR(IMPLICITIZE),
+        .doc = "The same of v."},
+    [OPTION_SIZE] = {"size", 0, "X,Y,Z", OPTION_VECTOR, .min = 0, .max = LIMIT_COORDINATE,
+        .commands = FOR(IMPLICITIZE),
+        .doc = "Full lengths of the box about the origin that cuts the implicit surface; by "
+               "default, and where one is 0, the box goes around the patch."},
     [OPTION_LETTERS] = {"letters", 0, "NAMES", OPTION_TEXT, .commands = FOR(GROEBNER),
         .doc = "The variables, the greatest first, with spaces between them; by default in the "
                "order of the alphabet, with x, y and z last."},
@@ -477,6 +494,8 @@ static bool read_value(const struct option_row *row, const char *text, double *n
     case OPTION_INT:
     case OPTION_NUMBER:
         return read_number(row, text, text + strlen(text), number, place, err);
+    case OPTION_PAIR:
+        return read_numbers(row, text, 2, "two numbers, as -1,1", number, place, err);
     case OPTION_VECTOR:
         return read_numbers(row, text, 3, "three numbers, as 0,1.5,6", number, place, err);
     case OPTION_PIXELS:

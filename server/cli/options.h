@@ -60,6 +60,11 @@ enum option {
     OPTION_SECTION_NORMAL, /* --section-NAME for each member of a section */
     OPTION_SECTION_OFFSET,
     OPTION_METHOD,
+    OPTION_RANGE_S, /* in the order of surface_names */
+    OPTION_RANGE_T,
+    OPTION_RANGE_U,
+    OPTION_RANGE_V,
+    OPTION_SIZE,
     OPTION_LETTERS, /* named as the members of ideal_type, up to OPTION_DIVIDE */
     OPTION_ORDER,
     OPTION_WEIGHTS,
@@ -86,6 +91,7 @@ enum option_type {
     OPTION_FLAG, /* true when named; elsewhere `yes` or `no` */
     OPTION_INT,
     OPTION_NUMBER,
+    OPTION_PAIR,   /* low,high */
     OPTION_VECTOR, /* x,y,z */
     OPTION_PIXELS, /* x,y,width,height: whole numbers */
     OPTION_TEXT,

@@ -15,16 +15,13 @@ struct question {
     struct request *request;
     bool (*ask)(struct algebra *algebra, const struct question *question, cJSON **out,
                 struct error *err);
-    char *texts[SURFACE_PARTS]; /* of implicitize, as the method */
-    enum surface_method method;
+    cJSON *asked;         /* of implicitize */
     struct record params; /* of verify */
 };
 
 static void question_destroy(struct question *question)
 {
-    for (int i = 0; i < SURFACE_PARTS; i++) {
-        free(question->texts[i]);
-    }
+    cJSON_Delete(question->asked);
     record_finish(&question->params);
     free(question);
 }
@@ -80,32 +77,25 @@ static void wait_in_turn(struct request *request, struct question question,
 static bool ask_equation(struct algebra *algebra, const struct question *question, cJSON **out,
                          struct error *err)
 {
-    return algebra_implicitize(algebra, question->method, (const char *const *)question->texts, out,
-                               err);
+    return algebra_implicitize(algebra, question->asked, out, err);
 }
 
-static bool read_parts(struct question *out, const cJSON *json, struct error *err)
+static bool read_asked(struct question *out, const cJSON *json, struct error *err)
 {
-    static const char *const parts[] = {"x", "y", "z", "method", NULL};
-    const struct param *method = surface_question_type.params;
-    const cJSON *found[SURFACE_PARTS + 1] = {NULL};
-    double number[4] = {method->def[0]};
-    bool ok =
-        json_sort_members(json, parts, found, "", err) &&
-        (!found[SURFACE_PARTS] || param_read(method, found[SURFACE_PARTS], number, "/method", err));
+    struct record asked;
 
-    out->method = (enum surface_method)number[0];
-    for (int i = 0; ok && i < SURFACE_PARTS; i++) {
-        const char *text;
-        ok = json_read_text(found[i], &text, "", parts[i], err);
-        out->texts[i] = ok ? memory_text(text) : NULL;
+    record_init(&asked, &surface_question_type);
+    const bool ok = record_read(&asked, json, "", err) && surface_question_check(&asked, err);
+    if (ok) {
+        out->asked = cJSON_Duplicate(json, true);
     }
+    record_finish(&asked);
     return ok;
 }
 
 void equations_implicitize(struct request *request)
 {
-    wait_in_turn(request, (struct question){.ask = ask_equation}, read_parts);
+    wait_in_turn(request, (struct question){.ask = ask_equation}, read_asked);
 }
 
 /* --- verify --- */
@@ -121,6 +111,9 @@ static bool ask_verdict(struct algebra *algebra, const struct question *question
     *out = cJSON_CreateObject();
     cJSON_AddStringToObject(*out, "verdict", surface_verdicts[proof.verdict]);
     cJSON_AddStringToObject(*out, "reason", proof.reason);
+    if (proof.coverage) {
+        cJSON_AddItemToObject(*out, "coverage", proof.coverage);
+    }
     return true;
 }
 

@@ -40,11 +40,25 @@ const VERIFIED = [
 for (const [name, params] of VERIFIED) {
     test(`verified: ${name}`, () => {
         const { status, stdout, stderr, told } = check(params);
-        assert.match(told, /^verified: degree \d, \d+ terms$/);
+        assert.match(told, /^verified: degree \d, \d+ terms; the patch covers \d+ % of the implicit surface within the clip$/);
         assert.match(stdout.split('\n')[0], /^-: \/nodes\/it\/params\/equation: /);
         assert.equal(stdout.split('\n').slice(1).join('\n'), `-: /nodes/it/params/parametric: ${told}\n`);
         assert.equal(stderr, '');
         assert.equal(status, 0);
+    });
+}
+
+// A square of side 1 in the plane z = 0, of what the clip has of it.
+const square = { equation: 'z = 0', parametric: { x: 's', y: 't', z: '0*s', s: [0, 1], t: [0, 1] } };
+const CLIPS = [
+    ['the box that there is', {}, 100 / 9],
+    ['a box', { size: [2, 2, 1] }, 25],
+    ['a ball', { clip: 'ball', radius: 2 }, 100 / (4 * Math.PI)],
+];
+for (const [name, clip, wanted] of CLIPS) {
+    test(`the clip cuts what is covered: ${name}`, () => {
+        const [, percent] = /the patch covers (\d+) % of/.exec(check({ ...square, ...clip }).told);
+        assert.ok(Math.abs(percent - wanted) < 3, `${percent} instead of ${wanted}`);
     });
 }
 

@@ -17,7 +17,7 @@ export const INCLUDES = {
     'renderer/image': ['protocol'],
     'renderer/glsl': ['protocol'],
     'renderer/code': ['protocol', 'renderer/sdf'],
-    'renderer/algebra': ['protocol'],
+    'renderer/algebra': ['protocol', 'renderer/code'],
     'renderer/field': ['protocol', 'renderer/sdf', 'renderer/code', 'renderer/glsl'],
     'renderer/spmd': ['renderer/code', 'renderer/glsl', 'renderer/field'],
     'renderer/engine': ['protocol', 'renderer/image', 'renderer/code', 'renderer/glsl', 'renderer/field', 'renderer/crash.h'],
