@@ -76,8 +76,8 @@
     X(ALGEBRA_BYTES, "algebra_bytes", 1073741824, "bytes", "memory of the same")                   \
     X(GROEBNER_LETTERS, "groebner_letters", 10, "letters", "the ring of an ideal")                 \
     X(GROEBNER_GENERATORS, "groebner_generators", 64, "polynomials", "an ideal")                   \
-    X(GROEBNER_KEPT, "groebner_kept", 16, "bases", "those that are made, or were and may be read") \
-    X(GROEBNER_SHARE, "groebner_share", 4, "bases", "the same, of one client")                     \
+    X(ALGEBRA_KEPT, "algebra_kept", 16, "questions", "those of the algebra that may be read")      \
+    X(ALGEBRA_SHARE, "algebra_share", 4, "questions", "the same, of one client")                   \
     X(EQUATION_DEFINITIONS, "equation_definitions", 32, "definitions", "those of an equation")     \
     X(JUDGED_EQUATIONS, "judged_equations", 16, "equations", "an answer about how they are drawn") \
     X(COMPILE_MS, "compile_ms", 60000, "milliseconds", "compiling a scene")                        \

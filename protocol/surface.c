@@ -2,6 +2,8 @@
 /* Parametric surfaces in documents: from JSON and back. */
 #include "surface.h"
 
+#include <string.h>
+
 #include "json.h"
 #include "limits.h"
 #include "param.h"
@@ -40,16 +42,24 @@ const struct record_type surface_question_type = {
         {NULL}}};
 /* clang-format on */
 
-bool surface_question_check(const struct record *asked, struct error *err)
+static bool check_parts(const struct record *asked, struct error *err)
 {
     for (int i = 0; i < SURFACE_PARTS; i++) {
         if (!record_is_set(asked, surface_names[i])) {
-            char place[ERROR_PLACE_BYTES];
-            return error_set(err, ERROR_INVALID, error_place(place, "", surface_names[i]),
-                             "is missing");
+            return error_set(err, ERROR_INVALID, surface_names[i], "is missing");
         }
     }
     return true;
+}
+
+bool surface_question_read(struct record *out, const cJSON *json, struct error *err)
+{
+    const bool ok = record_read(out, json, "", err);
+
+    if (!ok && err->place[0] == '/') {
+        memmove(err->place, err->place + 1, strlen(err->place));
+    }
+    return ok && check_parts(out, err);
 }
 
 cJSON *surface_question_json(const struct record *asked)

@@ -36,8 +36,9 @@ extern const char *const surface_methods[]; /* NULL at the end */
 /* What is asked: the method, the parts, and where the ranges are known, these and the clip. */
 struct record;
 extern const struct record_type surface_question_type;
-/* False: a part is missing. The place of an error is that of the member. */
-bool surface_question_check(const struct record *asked, struct error *err);
+/* Into a record of this type. All parts have to be there. The place of an error is the member's
+ * name. */
+bool surface_question_read(struct record *out, const cJSON *json, struct error *err);
 /* The parts, with ranges of letters that have some: as surface_read takes it. Caller deletes. */
 cJSON *surface_question_json(const struct record *asked);
 

@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "protocol/ideal.h"
 #include "protocol/json.h"
 #include "protocol/limits.h"
 #include "protocol/memory.h"
@@ -197,17 +198,6 @@ static bool ask(struct algebra *algebra, const struct question *question, cJSON 
     return *out != NULL;
 }
 
-bool algebra_implicitize(struct algebra *algebra, const cJSON *asked, cJSON **out,
-                         struct error *err)
-{
-    char *text = json_print(asked, false);
-    char *argv[] = {NULL, "implicitize", text, NULL};
-    const bool ok = ask(algebra, &(struct question){.argv = argv}, out, err);
-
-    free(text);
-    return ok;
-}
-
 static char *print_params(const struct record *params)
 {
     cJSON *json = cJSON_CreateObject();
@@ -253,12 +243,12 @@ bool algebra_verify(struct algebra *algebra, const struct record *params, struct
     return ok;
 }
 
-bool algebra_groebner(struct algebra *algebra, const struct record *asked,
-                      void (*tell)(void *data, const char *line), void *data, cJSON **out,
-                      struct error *err)
+bool algebra_ask(struct algebra *algebra, const struct record *asked,
+                 void (*tell)(void *data, const char *line), void *data, cJSON **out,
+                 struct error *err)
 {
     char *text = print_params(asked);
-    char *argv[] = {NULL, "groebner", text, NULL};
+    char *argv[] = {NULL, asked->type == &ideal_type ? "groebner" : "implicitize", text, NULL};
     const bool ok =
         ask(algebra, &(struct question){.argv = argv, .tell = tell, .data = data}, out, err);
 

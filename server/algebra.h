@@ -14,16 +14,13 @@
 struct algebra;
 
 struct algebra *algebra_create(struct error *err);
-/* `asked` is JSON of surface_question_type. Waits for the process. The caller deletes *out: its
- * answer as main.c of renderer/algebra has it. The place of an error is a member's name, or "". Any
- * thread, one at a time. */
-bool algebra_implicitize(struct algebra *algebra, const cJSON *asked, cJSON **out,
-                         struct error *err);
-/* The same for a question of ideal_type. `tell` gets the line of each step, in the caller's thread;
- * algebra_cancel with the same `data` ends the process. */
-bool algebra_groebner(struct algebra *algebra, const struct record *asked,
-                      void (*tell)(void *data, const char *line), void *data, cJSON **out,
-                      struct error *err);
+/* A question: of surface_question_type, or of ideal_type. Waits for the process. The caller deletes
+ * *out: its answer as main.c of renderer/algebra has it. The place of an error is a member's name,
+ * or "". `tell` gets the line of each step, in the caller's thread; NULL: nobody asks.
+ * algebra_cancel with the same `data` ends the process. Any thread, one at a time. */
+bool algebra_ask(struct algebra *algebra, const struct record *asked,
+                 void (*tell)(void *data, const char *line), void *data, cJSON **out,
+                 struct error *err);
 /* Any thread. Does nothing where no process runs for `data`. */
 void algebra_cancel(struct algebra *algebra, const void *data);
 

@@ -140,7 +140,7 @@ static bool rebuild(struct lifting *l)
 }
 
 static bool lift_all(const struct patch *patch, struct lifting *l, flint_rand_t random,
-                     int *out_primes, struct error *err)
+                     const struct progress *progress, int *out_primes, struct error *err)
 {
     mp_limb_t prime = UWORD(1) << 60;
     mp_limb_t *vector = flint_calloc((size_t)l->support.count, sizeof *vector);
@@ -153,6 +153,8 @@ static bool lift_all(const struct patch *patch, struct lifting *l, flint_rand_t 
             lift(l, vector, prime);
             settled = rebuild(l);
             (*out_primes)++;
+            progress_tell(progress, PROGRESS_PRIME, *out_primes, "prime %d: %ld bits", *out_primes,
+                          (long)fmpz_bits(l->modulus));
         }
     }
     flint_free(vector);
@@ -187,19 +189,24 @@ static void make_whole(const struct lifting *l, fmpz_mpoly_t out, const fmpz_mpo
 }
 
 bool patch_find_equation(const struct patch *patch, slong degree, flint_rand_t random,
-                         fmpz_mpoly_t out, const fmpz_mpoly_ctx_t space, int *out_primes,
-                         struct error *err)
+                         const struct progress *progress, fmpz_mpoly_t out,
+                         const fmpz_mpoly_ctx_t space, int *out_primes, struct error *err)
 {
     struct lifting l = {0};
     bool ok = find_support(patch, degree, random, &l.support) ||
               error_set(err, ERROR_INTERNAL, "", "no single equation of degree %ld", degree);
     const slong count = l.support.count;
 
+    if (ok) {
+        progress_tell(progress, PROGRESS_SUPPORT, count, "%ld of %ld monomials", count,
+                      (degree + 1) * (degree + 2) * (degree + 3) / 6);
+    }
+
     l.residues = _fmpz_vec_init(count);
     l.values = _fmpq_vec_init(count);
     l.before = _fmpq_vec_init(count);
     fmpz_init_set_ui(l.modulus, 1);
-    ok = ok && lift_all(patch, &l, random, out_primes, err);
+    ok = ok && lift_all(patch, &l, random, progress, out_primes, err);
     if (ok) {
         make_whole(&l, out, space);
     }

@@ -7,10 +7,11 @@
 #define RENDERER_ALGEBRA_COEFFICIENTS_H
 
 #include "parametric.h"
+#include "progress.h"
 
 /* `space` has the variables x, y, z; `out` is primitive, its first coefficient positive. */
 bool patch_find_equation(const struct patch *patch, slong degree, flint_rand_t random,
-                         fmpz_mpoly_t out, const fmpz_mpoly_ctx_t space, int *out_primes,
-                         struct error *err);
+                         const struct progress *progress, fmpz_mpoly_t out,
+                         const fmpz_mpoly_ctx_t space, int *out_primes, struct error *err);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+enum { PAIRS_APART = 25 };
 enum { S, T, PARAMETERS }; /* of the patch */
 enum { H = PARAMETERS, HOMOGENEOUS_X, HOMOGENEOUS_LETTERS = HOMOGENEOUS_X + PATCH_PARTS };
 enum { Q, SATURATED_S, SATURATED_T, SATURATED_X, SATURATED_LETTERS = SATURATED_X + 3 };
@@ -100,6 +101,15 @@ static bool take_equation(struct elimination *e, int first, fmpz_mpoly_t out,
     return error_set(err, ERROR_INTERNAL, "", "no element of the basis is free of parameters");
 }
 
+/* Some of them. */
+static void tell_pairs(void *data, const struct groebner *g, const struct groebner_step *step)
+{
+    if (g->counts.pairs % PAIRS_APART == 0 || step->waiting == 0) {
+        progress_tell(data, PROGRESS_PAIRS, (long)g->counts.pairs, "%zu pairs, %zu waiting",
+                      g->counts.pairs, step->waiting);
+    }
+}
+
 /* --- the homogeneous form --- */
 
 static void add_homogeneous(struct elimination *e, slong degree)
@@ -118,9 +128,9 @@ static void add_homogeneous(struct elimination *e, slong degree)
     fmpz_mpoly_clear(letter, e->plain);
 }
 
-bool eliminate_homogeneous(const struct patch *patch, fmpz_mpoly_t out,
-                           const fmpz_mpoly_ctx_t space, struct groebner_counts *out_counts,
-                           struct error *err)
+bool eliminate_homogeneous(const struct patch *patch, const struct progress *progress,
+                           fmpz_mpoly_t out, const fmpz_mpoly_ctx_t space,
+                           struct groebner_counts *out_counts, struct error *err)
 {
     const slong degree = patch_degree(patch);
     struct elimination e;
@@ -134,7 +144,7 @@ bool eliminate_homogeneous(const struct patch *patch, fmpz_mpoly_t out,
     add_homogeneous(&e, degree);
     groebner_complete(
         &e.basis, &(struct groebner_params){.coprime = true, .chain = true, .until = HOMOGENEOUS_X},
-        NULL, NULL);
+        tell_pairs, (void *)progress);
     *out_counts = e.basis.counts;
     const bool found = take_equation(&e, HOMOGENEOUS_X, out, space, err);
     elimination_clear(&e);
@@ -168,7 +178,8 @@ static void add_saturated(struct elimination *e)
     fmpz_mpoly_clear(under, e->plain);
 }
 
-bool eliminate_saturated(const struct patch *patch, fmpz_mpoly_t out, const fmpz_mpoly_ctx_t space,
+bool eliminate_saturated(const struct patch *patch, const struct progress *progress,
+                         fmpz_mpoly_t out, const fmpz_mpoly_ctx_t space,
                          struct groebner_counts *out_counts, struct error *err)
 {
     struct elimination e;
@@ -180,8 +191,8 @@ bool eliminate_saturated(const struct patch *patch, fmpz_mpoly_t out, const fmpz
     add_saturated(&e);
     groebner_complete(
         &e.basis,
-        &(struct groebner_params){.strategy = STRATEGY_SUGAR, .coprime = true, .chain = true}, NULL,
-        NULL);
+        &(struct groebner_params){.strategy = STRATEGY_SUGAR, .coprime = true, .chain = true},
+        tell_pairs, (void *)progress);
     *out_counts = e.basis.counts;
     groebner_reduce(&e.basis);
     const bool found = take_equation(&e, SATURATED_X, out, space, err);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* fieldcast-algebra implicitize ASKED: the equation of a parametric surface and its certificate as
- * JSON, or {"error": {kind, place, line, column, message}}. ASKED is JSON of surface_question_type.
- * With ranges also how much of the implicit surface the patch covers (coverage.h), and the patch
- * alone as a node (trim.h).
+/* fieldcast-algebra implicitize ASKED: a line of JSON for each step (progress.h), then the equation
+ * of a parametric surface and its certificate, or {"error": {kind, place, line, column, message}}.
+ * ASKED is JSON of surface_question_type. With ranges also how much of the implicit surface the
+ * patch covers (coverage.h), and the patch alone as a node (trim.h).
  * fieldcast-algebra verify PARAMS: {"verdict", "reason"} of the parameters of an `implicit`, which
  * are JSON; with "coverage" where it is verified.
  * fieldcast-algebra groebner ASKED: a line of JSON for each step, then the basis (workbench.h).
@@ -17,6 +17,7 @@
 #include "coverage.h"
 #include "degree.h"
 #include "eliminate.h"
+#include "progress.h"
 #include "protocol/equation.h"
 #include "protocol/json.h"
 #include "protocol/nodes.h"
@@ -25,6 +26,7 @@
 #include "workbench.h"
 
 struct question {
+    struct progress progress;
     const struct record *asked; /* surface_question_type */
     const char *texts[SURFACE_PARTS];
     cJSON *parametric;
@@ -42,37 +44,60 @@ struct result {
     bool irreducible;
 };
 
-static bool find(const struct patch *patch, flint_rand_t random, struct result *out,
-                 struct error *err)
+static bool find(const struct patch *patch, const struct progress *progress, flint_rand_t random,
+                 struct result *out, struct error *err)
 {
     if (strcmp(out->method, surface_methods[SURFACE_BY_GROEBNER]) == 0) {
-        return eliminate_homogeneous(patch, out->equation, out->space, &out->counts, err);
+        return eliminate_homogeneous(patch, progress, out->equation, out->space, &out->counts, err);
     }
     if (strcmp(out->method, surface_methods[SURFACE_BY_SATURATION]) == 0) {
-        return eliminate_saturated(patch, out->equation, out->space, &out->counts, err);
+        return eliminate_saturated(patch, progress, out->equation, out->space, &out->counts, err);
     }
     if (strcmp(out->method, surface_methods[SURFACE_BY_RESULTANT]) == 0) {
         return eliminate_resultant(patch, out->equation, out->space, err);
     }
-    return patch_find_equation(patch, out->degrees.surface, random, out->equation, out->space,
-                               &out->primes, err);
+    return patch_find_equation(patch, out->degrees.surface, random, progress, out->equation,
+                               out->space, &out->primes, err);
 }
 
-static bool implicitize(const struct patch *patch, struct result *out, struct error *err)
+static bool find_degrees(const struct patch *patch, const struct progress *progress,
+                         flint_rand_t random, struct patch_degrees *out, struct error *err)
+{
+    if (!patch_find_degrees(patch, random, out, err)) {
+        return false;
+    }
+    progress_tell(progress, PROGRESS_DEGREE, out->surface, "degree %ld, map degree %ld",
+                  out->surface, out->map);
+    return true;
+}
+
+/* The proof, whatever found it. */
+static bool prove(const struct patch *patch, const struct progress *progress, struct result *out,
+                  struct error *err)
+{
+    if (fmpz_mpoly_total_degree_si(out->equation, out->space) != out->degrees.surface ||
+        !certificate_is_zero(patch, out->equation, out->space)) {
+        return error_set(err, ERROR_INTERNAL, "", "the equation that was found is not exact");
+    }
+    progress_tell(progress, PROGRESS_EXACT, fmpz_mpoly_length(out->equation, out->space),
+                  "exact: the parts put into it give 0");
+    out->irreducible = certificate_is_irreducible(out->equation, out->space);
+    progress_tell(progress, PROGRESS_IRREDUCIBLE, out->irreducible, "%s",
+                  out->irreducible ? "irreducible" : "not known to be irreducible");
+    return true;
+}
+
+static bool implicitize(const struct patch *patch, const struct progress *progress,
+                        struct result *out, struct error *err)
 {
     flint_rand_t random;
 
     flint_randinit(random);
-    bool ok =
-        patch_find_degrees(patch, random, &out->degrees, err) && find(patch, random, out, err);
+    const bool ok = find_degrees(patch, progress, random, &out->degrees, err) &&
+                    find(patch, progress, random, out, err);
     flint_randclear(random);
     make_primitive(out->equation); /* the same by each method */
-    if (ok && (fmpz_mpoly_total_degree_si(out->equation, out->space) != out->degrees.surface ||
-               !certificate_is_zero(patch, out->equation, out->space))) {
-        ok = error_set(err, ERROR_INTERNAL, "", "the equation that was found is not exact");
-    }
-    out->irreducible = ok && certificate_is_irreducible(out->equation, out->space);
-    return ok;
+    return ok && prove(patch, progress, out, err);
 }
 
 static cJSON *letters(const struct patch *patch)
@@ -148,6 +173,8 @@ static void answer_ranges(const struct result *result, const struct question *qu
         clip.half[i] = size[i] / 2;
     }
     coverage_measure(result->equation, result->space, &question->surface, &clip, &coverage);
+    progress_tell(&question->progress, PROGRESS_COVERAGE, coverage.points,
+                  "%d of %d points covered", coverage.covered, coverage.points);
     cJSON *told = coverage_answer(&coverage);
     cJSON_AddItemToObject(told, "size", cJSON_CreateDoubleArray(size, 3));
     cJSON_AddItemToObject(json, "coverage", told);
@@ -211,7 +238,8 @@ static cJSON *find_equation(const struct question *question)
     }
     fmpz_mpoly_ctx_init(result.space, 3, ORD_DEGLEX);
     fmpz_mpoly_init(result.equation, result.space);
-    cJSON *json = check_ranges(question, &patch, &err) && implicitize(&patch, &result, &err)
+    cJSON *json = check_ranges(question, &patch, &err) &&
+                          implicitize(&patch, &question->progress, &result, &err)
                       ? answer(&result, &patch, question)
                       : answer_error(&err);
     fmpz_mpoly_clear(result.equation, result.space);
@@ -235,16 +263,14 @@ static cJSON *implicitize_asked(const char *text)
     struct question question = {.asked = &asked};
     cJSON *json = json_parse(text, strlen(text), &err);
 
+    progress_init(&question.progress, stdout);
     record_init(&asked, &surface_question_type);
-    bool ok = json && record_read(&asked, json, "", &err) && surface_question_check(&asked, &err);
+    bool ok = json && surface_question_read(&asked, json, &err);
     for (int i = 0; ok && i < SURFACE_PARTS; i++) {
         question.texts[i] = record_text(&asked, surface_names[i]);
     }
     question.parametric = surface_question_json(&asked);
     ok = ok && read_ranges(&question, &err);
-    if (!ok && err.place[0] == '/') { /* as those of texts */
-        memmove(err.place, err.place + 1, strlen(err.place));
-    }
     cJSON *answer = ok ? find_equation(&question) : answer_error(&err);
     cJSON_Delete(question.parametric);
     record_finish(&asked);

@@ -53,7 +53,7 @@ static bool ask(struct algebra *algebra, const void *question, cJSON **out, stru
     record_init(&asked, &ideal_type);
     set_generators(&asked, options);
     set_members(&asked, options);
-    const bool ok = algebra_groebner(algebra, &asked, steps ? print_step : NULL, NULL, out, err);
+    const bool ok = algebra_ask(algebra, &asked, steps ? print_step : NULL, NULL, out, err);
     record_finish(&asked);
     return ok;
 }

@@ -288,8 +288,10 @@ static const struct option_row table[OPTION_COUNT] = {
         .doc = "Which pairs are left out; by default those of both criteria."},
     [OPTION_DIVIDE] = {"divide", 0, "POLYNOMIAL", OPTION_TEXT, .commands = FOR(GROEBNER),
         .doc = "Divide it by the basis, with quotients."},
-    [OPTION_STEPS] = {"steps", 0, NULL, OPTION_FLAG, .commands = FOR(GROEBNER),
-        .doc = "Print each step on stderr, as JSON."},
+    [OPTION_STEPS] = {"steps", 0, NULL, OPTION_FLAG,
+        .commands = FOR(GROEBNER) | FOR(IMPLICITIZE),
+        .doc = "Print each step on stderr: a pair as JSON, a step to an equation as text with the "
+               "time. The latter are printed on a terminal in any case."},
     [OPTION_ROUNDS] = {"rounds", 0, "N", OPTION_INT, .fallback = "5", .min = 1, .max = 1000,
         .commands = FOR(BENCH),
         .doc = "How often each thing is measured; the median counts."},

@@ -43,9 +43,9 @@ struct hub {
     struct supervisor *supervisor;
     struct picker *picker;
     struct tasks *tasks;
-    struct algebra *algebra; /* finds equations */
-    struct bases *bases;     /* that it makes */
-    struct ws *ws;           /* set before its thread starts */
+    struct algebra *algebra;     /* finds equations */
+    struct questions *questions; /* that it is asked */
+    struct ws *ws;               /* set before its thread starts */
     const char *web_dir;
     bool code_refused;            /* users' code is neither accepted nor compiled */
     char *schema, schema_tag[32]; /* of /v1/schema.json; never change */

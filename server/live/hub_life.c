@@ -25,9 +25,9 @@
 #include "room_sync.h"
 #include "scene_error.h"
 #include "server/algebra.h"
-#include "server/bases.h"
 #include "server/clock.h"
 #include "server/log.h"
+#include "server/questions.h"
 #include "session.h"
 #include "stream.h"
 #include "thumbnails.h"
@@ -334,7 +334,7 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
         hub_destroy(hub);
         return NULL;
     }
-    hub->bases = bases_create(hub->algebra);
+    hub->questions = questions_create(hub->algebra);
     metric_set(&hub->metrics, METRIC_SCENES, (int64_t)hub->catalog->count);
     /* Its thread calls into the hub at once, and finds the pointer only under the lock. */
     hub_lock(hub);
@@ -388,7 +388,7 @@ void hub_destroy(struct hub *hub)
     hub_stop(hub);
     tasks_destroy(hub->tasks);
     algebra_destroy(hub->algebra);
-    bases_destroy(hub->bases);
+    questions_destroy(hub->questions);
     picker_destroy(hub->picker);
     supervisor_destroy(hub->supervisor);
     store_close(hub->store);

@@ -15,14 +15,12 @@ struct question {
     struct request *request;
     bool (*ask)(struct algebra *algebra, const struct question *question, cJSON **out,
                 struct error *err);
-    cJSON *asked;         /* of implicitize */
-    struct record params; /* of verify */
+    struct record asked; /* surface_question_type, or the parameters of an `implicit` */
 };
 
 static void question_destroy(struct question *question)
 {
-    cJSON_Delete(question->asked);
-    record_finish(&question->params);
+    record_finish(&question->asked);
     free(question);
 }
 
@@ -67,7 +65,7 @@ static void wait_in_turn(struct request *request, struct question question,
                     algebra_add(request->hub->algebra, request->client, answer, kept, &err);
     cJSON_Delete(json);
     if (!ok) {
-        request_reply_error(request, &err);
+        reply_error(request, &err);
         question_destroy(kept);
     }
 }
@@ -77,25 +75,54 @@ static void wait_in_turn(struct request *request, struct question question,
 static bool ask_equation(struct algebra *algebra, const struct question *question, cJSON **out,
                          struct error *err)
 {
-    return algebra_implicitize(algebra, question->asked, out, err);
+    return algebra_ask(algebra, &question->asked, NULL, NULL, out, err);
 }
 
 static bool read_asked(struct question *out, const cJSON *json, struct error *err)
 {
-    struct record asked;
+    record_init(&out->asked, &surface_question_type);
+    return surface_question_read(&out->asked, json, err);
+}
 
-    record_init(&asked, &surface_question_type);
-    const bool ok = record_read(&asked, json, "", err) && surface_question_check(&asked, err);
-    if (ok) {
-        out->asked = cJSON_Duplicate(json, true);
+/* The client looks at what it has begun. */
+static void begin(struct request *request)
+{
+    struct error err = {0};
+    struct question question = {.request = request};
+    cJSON *json = json_parse(request->body, request->body_length, &err);
+
+    if (json && read_asked(&question, json, &err)) {
+        question_begin(request, "implicitize", &question.asked);
+    } else {
+        reply_error(request, &err);
     }
-    record_finish(&asked);
-    return ok;
+    record_finish(&question.asked);
+    cJSON_Delete(json);
+}
+
+static bool read_wait(const struct request *request, bool *out, struct error *err)
+{
+    static const char *const queries[] = {"wait", NULL};
+    const char *text = request_query(request, "wait");
+
+    *out = !text || strcmp(text, "yes") == 0;
+    return request_check_query(request, queries, err) &&
+           (*out || strcmp(text, "no") == 0 ||
+            error_set(err, ERROR_INVALID, "?wait", "%.40s is neither yes nor no", text));
 }
 
 void equations_implicitize(struct request *request)
 {
-    wait_in_turn(request, (struct question){.ask = ask_equation}, read_asked);
+    struct error err = {0};
+    bool wait;
+
+    if (!read_wait(request, &wait, &err)) {
+        request_reply_error(request, &err);
+    } else if (wait) {
+        wait_in_turn(request, (struct question){.ask = ask_equation}, read_asked);
+    } else {
+        begin(request);
+    }
 }
 
 /* --- verify --- */
@@ -105,7 +132,7 @@ static bool ask_verdict(struct algebra *algebra, const struct question *question
 {
     struct algebra_proof proof;
 
-    if (!algebra_verify(algebra, &question->params, &proof, err)) {
+    if (!algebra_verify(algebra, &question->asked, &proof, err)) {
         return false;
     }
     *out = cJSON_CreateObject();
@@ -119,8 +146,8 @@ static bool ask_verdict(struct algebra *algebra, const struct question *question
 
 static bool read_params(struct question *out, const cJSON *json, struct error *err)
 {
-    record_init(&out->params, &node_type_find("implicit")->record);
-    return record_read(&out->params, json, "", err);
+    record_init(&out->asked, &node_type_find("implicit")->record);
+    return record_read(&out->asked, json, "", err);
 }
 
 void equations_verify(struct request *request)

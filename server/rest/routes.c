@@ -27,6 +27,8 @@ static const struct route table[] = {
     {"POST", "/v1/render", images_render, BODY_JSON, GUARDED, SCENE_NEW},
     {"GET", "/v1/queue", images_queue, BODY_NONE, GUARDED, SCENE_NONE},
     {"POST", "/v1/implicitize", equations_implicitize, BODY_QUESTION, GUARDED, SCENE_NEW},
+    {"GET", "/v1/implicitize/{}", implicitize_look, BODY_NONE, GUARDED, SCENE_NONE},
+    {"DELETE", "/v1/implicitize/{}", implicitize_cancel, BODY_NONE, GUARDED, SCENE_NONE},
     {"POST", "/v1/verify", equations_verify, BODY_QUESTION, GUARDED, SCENE_NEW},
     {"POST", "/v1/groebner", groebner_begin, BODY_QUESTION, GUARDED, SCENE_NEW},
     {"GET", "/v1/groebner/{}", groebner_look, BODY_NONE, GUARDED, SCENE_NONE},

@@ -3,6 +3,7 @@
 #ifndef SERVER_ROUTES_H
 #define SERVER_ROUTES_H
 
+#include "protocol/record.h"
 #include "server/net/route.h"
 
 extern const struct route_table routes;
@@ -35,6 +36,10 @@ void images_queue(struct request *request);
 void equations_implicitize(struct request *request);
 void equations_verify(struct request *request);
 void equations_judge(struct request *request);
+/* Replies with the id of a question of the algebra, at /v1/ROAD/ID; copies `asked`. */
+void question_begin(struct request *request, const char *road, const struct record *asked);
+void implicitize_look(struct request *request);
+void implicitize_cancel(struct request *request);
 void groebner_begin(struct request *request);
 void groebner_look(struct request *request);
 void groebner_cancel(struct request *request);

@@ -139,7 +139,7 @@ test('sixteen are kept: those that wait before those that are over', async () =>
     }
     const refused = await sendFrom('127.0.0.9');
     assert.equal(refused.status, 503);
-    assert.match(refused.json.detail, /16 bases are being made \(groebner_kept\)/);
+    assert.match(refused.json.detail, /16 questions are being answered \(algebra_kept\)/);
     await send('DELETE', `/${long}`);
     for (const id of waiting) {
         assert.equal((await ended(id)).state, 'done');
@@ -168,7 +168,7 @@ test('a client has a quarter of them: it loses its own oldest, and nobody else l
     }
     const refused = await send('POST', '', SHORT);
     assert.deepEqual([refused.status, refused.headers.get('retry-after')], [429, '1']);
-    assert.match((await refused.json()).detail, /4 bases are being made for this client \(groebner_share\)/);
+    assert.match((await refused.json()).detail, /4 questions are being answered for this client \(algebra_share\)/);
     await send('DELETE', `/${long}`);
 });
 

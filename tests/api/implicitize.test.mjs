@@ -36,3 +36,65 @@ test('others are answered while an equation is sought, and it ends with the serv
     assert.ok([0, 503].includes(await question));
     assert.equal(isAlgebra(child), false);
 });
+
+// --- steps ---
+
+const bicubic = { x: 's^3*t^3+s-2t^2+s^2*t', y: '2s^3*t^3+s^3-t+s*t-t^3*s^2', z: 's^3*t^3-t^3+s^2+s*t^2' };
+const umbrella = { x: 's*t', y: 's', z: 't^2' };
+
+test('an equation is looked at while it is sought, step by step, and cancelled', async () => {
+    const daemon = await startDaemon({ driver: 'null' });
+    const send = (method, path, body) =>
+        fetch(`${daemon.url}/v1/implicitize${path}`, {
+            method,
+            ...(body && { headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) }),
+        });
+    const begin = async (asked) => {
+        const response = await send('POST', '?wait=no', asked);
+        const { id } = await response.json();
+        assert.deepEqual([response.status, response.headers.get('location')], [202, `/v1/implicitize/${id}`]);
+        return id;
+    };
+    const look = async (id, from = 0) => (await send('GET', `/${id}?from=${from}`)).json();
+    const ended = async (id) => {
+        let seen;
+        await until(async () => !['waiting', 'running'].includes((seen = await look(id)).state), 'the end of a search');
+        return seen;
+    };
+
+    const { state, steps, next, answer } = await ended(await begin({ ...umbrella, s: [-1, 1], t: [-1, 1] }));
+    assert.equal(state, 'done');
+    assert.equal(answer.equation, (await (await send('POST', '', umbrella)).json()).equation);
+    assert.deepEqual(
+        steps.map(({ step, count }) => [step, count]),
+        [['degree', 3], ['support', 2], ['prime', 1], ['prime', 2], ['exact', 2], ['irreducible', 1], ['coverage', answer.coverage.points]],
+    );
+    assert.equal(next, steps.length);
+    steps.forEach(({ ms, text }, i) => assert.ok(ms >= (steps[i - 1]?.ms ?? 0) && text.length > 0));
+
+    const seen = (await ended(await begin({ ...umbrella, method: 'groebner' }))).steps.map(({ step }) => step);
+    assert.deepEqual([seen[0], seen.slice(-2)], ['degree', ['exact', 'irreducible']]);
+
+    const failed = await ended(await begin({ x: 's', y: 't', z: 's +* t' }));
+    assert.deepEqual([failed.state, failed.error.place, failed.error.line, failed.error.column], ['failed', 'z', 1, 4]);
+    for (const [body, query, place] of [[{ x: 's', y: 't' }, '?wait=no', '/z'], [umbrella, '?wait=2', '?wait'], [umbrella, '?now=1', '?now']]) {
+        const response = await send('POST', query, body);
+        assert.deepEqual([response.status, (await response.json()).place], [422, place]);
+    }
+
+    // The degree is told before the equation is found: the answer is not what brings the steps.
+    const long = await begin(slow);
+    await until(async () => (await look(long)).next > 1, 'the first steps');
+    const early = await look(long);
+    assert.deepEqual([early.state, early.steps[0].step, early.steps[0].count, early.answer], ['running', 'degree', 18, undefined]);
+    const [child] = algebraOf(daemon);
+    assert.equal((await send('DELETE', `/${long}`)).status, 204);
+    await until(() => !isAlgebra(child), 'the end of the process');
+    assert.equal((await look(long)).state, 'cancelled');
+    assert.equal((await ended(await begin(bicubic))).answer.certificate.degree, 18);
+
+    // An id is of one kind.
+    assert.equal((await fetch(`${daemon.url}/v1/groebner/${long}`)).status, 404);
+    assert.equal((await send('GET', '/0123')).status, 404);
+    await daemon.stop();
+});

@@ -182,3 +182,19 @@ test('three expressions are taken, no more and no fewer', () => {
         assert.match(stderr, why);
     }
 });
+
+test('--steps tells what is found, with the time, on stderr', () => {
+    const { stdout, stderr } = spawnSync(program, ['implicitize', '--steps', 's*t', 's', 't^2'], { encoding: 'utf8' });
+    const steps = stderr.trimEnd().split('\n').map((line) => /^\d+\.\d\d s: (.*)$/.exec(line)?.[1]);
+    assert.deepEqual(steps, [
+        'degree 3, map degree 1',
+        '2 of 20 monomials',
+        'prime 1: 61 bits',
+        'prime 2: 121 bits',
+        'exact: the parts put into it give 0',
+        'irreducible',
+    ]);
+    const silent = spawnSync(program, ['implicitize', 's*t', 's', 't^2'], { encoding: 'utf8' });
+    assert.equal(silent.stderr, '');
+    assert.equal(JSON.parse(stdout).equation, JSON.parse(silent.stdout).equation);
+});
