@@ -5,7 +5,8 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { test } from 'node:test';
-import { ask } from '../support/daemon.mjs';
+import { algebraOf } from '../support/algebra.mjs';
+import { ask, until } from '../support/daemon.mjs';
 import { closePage, documentWhen, field, nodeIn, pictureChanged, row, settled, stillPixels, useStage } from './stage.mjs';
 
 const MOST_ACTS = 9;
@@ -70,7 +71,7 @@ test(`the umbrella takes at most ${MOST_ACTS} acts`, async () => {
     console.log(acts.map((words, i) => `# ${i + 1}. ${words}`).join('\n'));
     assert.ok(acts.length <= MOST_ACTS, `${acts.length} acts`);
     const { status, stdout } = check(await ask(stage.daemon, 'GET', `/v1/scenes/${id}`));
-    assert.match(stdout, /^-: \/nodes\/implicit-1\/params\/parametric: verified: degree 3, 2 terms$/m);
+    assert.match(stdout, /^-: \/nodes\/implicit-1\/params\/parametric: verified: degree 3, 2 terms; the patch covers \d+ % of the implicit surface within the clip$/m);
     assert.equal(status, 0);
 
     await page.keyboard.press('Control+z');
@@ -97,7 +98,7 @@ test('an equation that is changed by hand does not fit, and fits again', async (
 test('the method is chosen among those of the schema', async () => {
     const { page } = await open(UMBRELLA);
     const asked = [];
-    page.on('request', (request) => request.url().endsWith('/implicitize') && asked.push(request.postDataJSON().method));
+    page.on('request', (request) => request.method() === 'POST' && request.url().includes('/implicitize') && asked.push(request.postDataJSON().method));
     await page.getByRole('button', { name: 'Change…' }).click();
     const dialog = page.getByRole('dialog', { name: 'Equation of a parametric surface' });
     const found = () => dialog.getByText('Degree 3, 2 terms; proved to be exact.').waitFor();
@@ -165,5 +166,51 @@ test('a certificate can be changed in the same dialog, and taken away', async ()
     await page.getByRole('button', { name: /^Reset parametric surface/i }).click();
     await documentWhen(stage, id, (d) => nodeIn(d, 'it').params.parametric === undefined, 'none');
     await badge(page).waitFor({ state: 'detached' });
+    await closePage(page);
+});
+
+const HALF = {
+    equation: 'x^2+y^2+z^2 = 1',
+    parametric: { x: 'cos(u)*cos(v)', y: 'sin(u)*cos(v)', z: 'sin(v)', u: [0, 6.283185], v: [0, 1.570796] },
+    thickness: 0.02,
+};
+
+test('the badge tells how much the patch covers, and one edit keeps only the patch', async () => {
+    const { id, page } = await open(HALF);
+    await told(page, /The patch covers (49|50|51) % of the implicit surface within the clip\./);
+    await page.getByRole('button', { name: 'Keep only the patch' }).click();
+    const document = await documentWhen(stage, id, (d) => nodeIn(d, 'it').params.mode === 'sheet', 'the patch alone');
+    const [cut] = document.root.children;
+    assert.equal(cut.type, 'intersection');
+    const [sheet, patch] = cut.children;
+    assert.deepEqual([sheet.id, sheet.params], ['it', { ...HALF, mode: 'sheet' }]);
+    assert.deepEqual([patch.type, patch.params], ['parametric', { surface: HALF.parametric, thickness: 0.04 }]);
+    await page.getByRole('button', { name: 'Keep only the patch' }).waitFor({ state: 'detached' });
+    await page.keyboard.press('Control+z');
+    const back = await documentWhen(stage, id, (d) => nodeIn(d, 'it').params.mode !== 'sheet', 'one step back');
+    assert.deepEqual(back.root.children.map((node) => node.id), ['it']);
+    await page.getByRole('button', { name: 'Keep only the patch' }).waitFor();
+    await closePage(page);
+});
+
+test('a search tells its steps, and is cancelled', async () => {
+    const long = (i) => `0.${'739184620583'.repeat(2).slice(i)}7`;
+    const { page } = await open(UMBRELLA);
+    await told(page, 'Verified');
+    await page.getByRole('button', { name: 'Change…' }).click();
+    const dialog = page.getByRole('dialog', { name: 'Equation of a parametric surface' });
+    await dialog.getByText('The patch covers').waitFor();
+    await dialog.getByRole('textbox', { name: 'x =' }).fill(`s^3*t^3+${long(0)}*s-2t^2+${long(1)}s^2*t`);
+    await dialog.getByRole('textbox', { name: 'y =' }).fill(`2s^3*t^3+${long(2)}s^3-t+${long(3)}s*t-${long(4)}t^3*s^2`);
+    await dialog.getByRole('textbox', { name: 'z =' }).fill(`s^3*t^3-${long(5)}t^3+s^2+${long(6)}s*t^2`);
+    await dialog.getByText(/Looking for the equation… prime \d+: \d+ bits \(\d+\.\d s\)/).waitFor();
+    assert.equal(algebraOf(stage.daemon).length, 1);
+    await dialog.getByRole('button', { name: 'Cancel' }).click();
+    await dialog.getByText('Cancelled.').waitFor();
+    await until(() => algebraOf(stage.daemon).length === 0, 'the end of the process');
+    await dialog.getByRole('textbox', { name: 'x =' }).fill('s*t');
+    await dialog.getByRole('textbox', { name: 'y =' }).fill('s');
+    await dialog.getByRole('textbox', { name: 'z =' }).fill('t^2');
+    await dialog.getByText('Degree 3, 2 terms; proved to be exact.').waitFor();
     await closePage(page);
 });

@@ -4,7 +4,6 @@ import { isObject, type Json, type JsonObject, listOf, numberOf, textOf } from "
 import type { Operation } from "../model/operation.ts";
 import type { Format } from "../model/picture.ts";
 import { readSchema, type Schema } from "../model/schema.ts";
-import type { PartTexts } from "../model/surface.ts";
 import { createLibraryRest, type LibraryRest } from "./libraryRest.ts";
 
 export interface SceneEntry {
@@ -54,24 +53,6 @@ export interface Imported {
     readonly notes: readonly string[];
 }
 
-/* Its equation, which is proved. */
-export interface Implicit {
-    readonly equation: string;
-    /* Whether a node can hold it; `why` not. */
-    readonly drawable: boolean;
-    readonly why: string;
-    readonly degree: number;
-    readonly terms: number;
-    /* The two letters that the texts are in. */
-    readonly letters: readonly string[];
-}
-
-/* Whether an equation is that of the parametric surface beside it. */
-export interface Proof {
-    readonly verdict: string;
-    readonly reason: string;
-}
-
 /* A problem+json answer, or a network that did not answer (status 0). */
 export class RestError extends Error {
     readonly status: number;
@@ -98,19 +79,6 @@ export class RestError extends Error {
     }
 }
 
-function readImplicit(json: Json): Implicit {
-    const answer = isObject(json) ? json : {};
-    const certificate = isObject(answer.certificate) ? answer.certificate : {};
-    return {
-        equation: textOf(answer.equation),
-        drawable: answer.drawable === true,
-        why: textOf(answer.why),
-        degree: numberOf(certificate.degree),
-        terms: numberOf(certificate.terms),
-        letters: listOf(certificate.letters).map((letter) => textOf(letter)),
-    };
-}
-
 export interface Rest {
     listScenes(): Promise<readonly SceneEntry[]>;
     /* Each answers the new scene's id. */
@@ -119,9 +87,6 @@ export interface Rest {
     createFromText(text: string): Promise<string>;
     /* Of files in the other format, their texts by path; `scene` says which of several. */
     importScene(files: Readonly<Record<string, string>>, scene: string | null): Promise<Imported>;
-    implicitize(asked: PartTexts & { method?: string }, signal: AbortSignal): Promise<Implicit>;
-    /* `params` of an `implicit`. */
-    verify(params: JsonObject, signal: AbortSignal): Promise<Proof>;
     createFromExample(example: string): Promise<string>;
     createFromScene(scene: string): Promise<string>;
     deleteScene(id: string): Promise<void>;
@@ -269,18 +234,6 @@ export function createRest(base: string, token: string | null): Rest {
         createFromText,
         importScene: (files, scene) =>
             post("/v1/import", JSON.stringify({ files, ...(scene === null ? {} : { scene }) })),
-        implicitize: async (texts, signal) => {
-            const body = JSON.stringify(texts);
-            const response = await request("/v1/implicitize", { method: "POST", body, signal });
-            return readImplicit((await response.json()) as Json);
-        },
-        verify: async (params, signal) => {
-            const body = JSON.stringify(params);
-            const response = await request("/v1/verify", { method: "POST", body, signal });
-            const json = (await response.json()) as Json;
-            const answer = isObject(json) ? json : {};
-            return { verdict: textOf(answer.verdict), reason: textOf(answer.reason) };
-        },
         createFromExample: (example) => create({ from: `example:${example}` }),
         createFromScene: (scene) => create({ from: `scene:${scene}` }),
         deleteScene: async (id) => {

@@ -74,6 +74,11 @@ export function lettersOf({ texts, ranges }: Surface): readonly string[] {
         : LETTERS.filter((letter) => both.includes(letter));
 }
 
+/* The ranges of its parameters, also of those that have none yet. */
+export function rangesOf(surface: Surface): Readonly<Record<string, SurfaceRange>> {
+    return readSurface(surfaceValue(surface, lettersOf(surface)))?.ranges ?? {};
+}
+
 /* The texts with the values of the node's own letters in them: what is proved has none. */
 export function withNumbers(
     texts: PartTexts,

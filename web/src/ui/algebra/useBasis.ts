@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* One basis at a time: begun, looked at until it is over, cancelled when nobody looks any more. */
+/* One basis at a time: begun, followed until it is over, cancelled when nobody looks any more. */
 import { useCallback, useEffect, useRef, useState } from "react";
-import { beginBasis, cancelBasis, lookAtBasis } from "../../link/basisRest.ts";
+import { followQuestion } from "../../link/questionRest.ts";
 import { RestError } from "../../link/rest.ts";
 import { type Asked, advance, type Basis, isOver, NEW_BASIS } from "../../model/basis.ts";
 import { useEditor } from "../state.ts";
-
-const LOOK_MS = 150;
 
 export interface Making {
     readonly basis: Basis | null;
@@ -20,52 +18,35 @@ function failed(basis: Basis, problem: unknown): Basis {
     return { ...basis, state: "failed", failure: { place, message, line, column } };
 }
 
-const pause = (): Promise<void> => new Promise((resolve) => setTimeout(resolve, LOOK_MS));
-
 export function useBasis(): Making {
     const { rest } = useEditor();
     const [basis, setBasis] = useState<Basis | null>(null);
-    /* The run that is looked at; another one or none ends it. */
-    const current = useRef<{ id: string } | null>(null);
+    /* Of the one that is followed. */
+    const request = useRef(new AbortController());
 
-    const stop = useCallback(() => {
-        const run = current.current;
-        current.current = null;
-        if (run?.id) {
-            cancelBasis(rest.request, run.id).catch(() => undefined);
-        }
-    }, [rest]);
+    const stop = useCallback(() => request.current.abort(), []);
     useEffect(() => stop, [stop]);
 
     const make = useCallback(
-        async (asked: Asked) => {
+        (asked: Asked) => {
             stop();
-            const run = { id: "" };
-            current.current = run;
+            const own = new AbortController();
+            request.current = own;
             let now = NEW_BASIS;
-            setBasis(now);
-            const tell = (next: Basis): boolean => {
+            const tell = (next: Basis): void => {
                 now = next;
-                if (current.current === run) {
+                if (!own.signal.aborted) {
                     setBasis(next);
                 }
-                return current.current === run && !isOver(next);
             };
-            try {
-                run.id = await beginBasis(rest.request, asked);
-                while (
-                    tell(advance(now, await lookAtBasis(rest.request, run.id, now.steps.length)))
-                ) {
-                    await pause();
-                }
-            } catch (problem) {
-                tell(failed(now, problem));
-            }
-            if (current.current === run) {
-                current.current = null;
-            } else {
-                cancelBasis(rest.request, run.id).catch(() => undefined);
-            }
+            setBasis(now);
+            followQuestion(
+                rest.request,
+                "groebner",
+                { ...asked },
+                (told) => tell(advance(now, told)),
+                own.signal,
+            ).catch((problem) => tell(failed(now, problem)));
         },
         [rest, stop],
     );

@@ -2,31 +2,31 @@
 /* The equation of a parametric surface: three expressions in two parameters; the server finds the
  * equation while they are typed, and proves it. */
 import { useEffect, useState } from "react";
-import { type Implicit, RestError } from "../../link/rest.ts";
+import type { RestError } from "../../link/rest.ts";
 import { numberParam } from "../../model/schema.ts";
 import {
     PARTS,
-    type PartTexts,
+    rangesOf,
     type Surface,
     type SurfaceRange,
     type SurfaceValue,
     surfaceValue,
 } from "../../model/surface.ts";
 import { paramTitle } from "../names.ts";
-import { useDocument, useEditor } from "../state.ts";
+import { useDocument } from "../state.ts";
 import { t } from "../texts.ts";
 import { Button } from "../widgets/Button.tsx";
 import { Dialog } from "../widgets/Dialog.tsx";
 import { Select } from "../widgets/Select.tsx";
 import { Mark } from "./Mark.tsx";
 import { NumberField } from "./Number.tsx";
-import { surfaceText } from "./surfaceTexts.ts";
+import { CancelSearch, searchText } from "./SearchState.tsx";
+import { coverageSentence, surfaceText } from "./surfaceTexts.ts";
+import { type Search, useEquation } from "./useEquation.ts";
 import "./fields.css";
 
 /* Whitney's umbrella. */
 const FIRST: Surface = { texts: { x: "s*t", y: "s", z: "t^2" }, ranges: {} };
-/* A pause in typing after which the server is asked. */
-const ASK_MS = 300;
 
 interface Props {
     open: boolean;
@@ -58,40 +58,6 @@ export function FromParametric({ open, start, onTake, onClose }: Props) {
     );
 }
 
-export interface Answer {
-    found: Implicit | null;
-    problem: RestError | null;
-}
-
-/* null: the server has not answered yet. */
-export function useEquation(texts: PartTexts, method: string | null): Answer | null {
-    const { rest } = useEditor();
-    const [answer, setAnswer] = useState<Answer | null>(null);
-    useEffect(() => {
-        const request = new AbortController();
-        const tell = (next: Answer): void => {
-            if (!request.signal.aborted) {
-                setAnswer(next);
-            }
-        };
-        setAnswer(null);
-        const timer = setTimeout(() => {
-            rest.implicitize(method === null ? texts : { ...texts, method }, request.signal).then(
-                (found) => tell({ found, problem: null }),
-                (problem) => tell({ found: null, problem: asProblem(problem) }),
-            );
-        }, ASK_MS);
-        return () => {
-            clearTimeout(timer);
-            request.abort();
-        };
-    }, [rest, texts, method]);
-    return answer;
-}
-
-const asProblem = (problem: unknown): RestError =>
-    problem instanceof RestError ? problem : new RestError(0, "unreachable", "", String(problem));
-
 interface SheetProps {
     surface: Surface;
     onChange: (surface: Surface) => void;
@@ -102,8 +68,8 @@ function Sheet({ surface, onChange, onTake }: SheetProps) {
     const { texts } = surface;
     /* null: as the server does. */
     const [method, setMethod] = useState<string | null>(null);
-    const answer = useEquation(texts, method);
-    const found = answer?.found ?? null;
+    const search = useEquation(texts, method, rangesOf(surface));
+    const { found } = search;
     const equation = found === null ? "" : `${found.equation} = 0`;
     /* The fields of the letters stay while the server looks. */
     const [letters, setLetters] = useState<readonly string[]>(Object.keys(surface.ranges));
@@ -122,7 +88,7 @@ function Sheet({ surface, onChange, onTake }: SheetProps) {
                         key={part}
                         part={part}
                         text={texts[part]}
-                        problem={answer?.problem?.place === `/${part}` ? answer.problem : null}
+                        problem={search.problem?.place === `/${part}` ? search.problem : null}
                         onChange={(text) =>
                             onChange({ ...surface, texts: { ...texts, [part]: text } })
                         }
@@ -145,7 +111,8 @@ function Sheet({ surface, onChange, onTake }: SheetProps) {
                 </output>
             </div>
             <footer className="dialog-foot">
-                <Verdict answer={answer} reversed={reversed ?? null} />
+                <Verdict search={search} reversed={reversed ?? null} />
+                <CancelSearch search={search} />
                 <Button
                     look="primary"
                     disabled={!found?.drawable || reversed !== undefined}
@@ -245,8 +212,8 @@ function Part({ part, text, problem, onChange }: PartProps) {
 }
 
 /* What was proved, or why there is no equation. */
-function Verdict({ answer, reversed }: { answer: Answer | null; reversed: string | null }) {
-    const { found = null, problem = null } = answer ?? {};
+function Verdict({ search, reversed }: { search: Search; reversed: string | null }) {
+    const { found, problem } = search;
     const place = problem?.place.replace("/", "");
     return (
         <p
@@ -257,8 +224,9 @@ function Verdict({ answer, reversed }: { answer: Answer | null; reversed: string
         >
             {problem !== null && `${place ? `${place}: ` : ""}${problem.message}`}
             {found !== null && surfaceText("found", { degree: found.degree, terms: found.terms })}
+            {found?.coverage && ` ${coverageSentence(found.coverage)}`}
             {found?.drawable === false && ` ${surfaceText("large", { why: found.why })}`}
-            {answer === null && surfaceText("busy")}
+            {searchText(search)}
             {reversed !== null && ` ${surfaceText("range", { letter: reversed })}`}
         </p>
     );

@@ -11,6 +11,7 @@ import {
     lettersOf,
     PARTS,
     type PartTexts,
+    rangesOf,
     readSurface,
     type Surface,
     type SurfaceRange,
@@ -22,10 +23,12 @@ import { lazyPart } from "../lazy.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { Button } from "../widgets/Button.tsx";
 import { Mark } from "./Mark.tsx";
-import { Range, useEquation } from "./Parametric.tsx";
-import { surfaceText } from "./surfaceTexts.ts";
+import { Range } from "./Parametric.tsx";
+import { CancelSearch, searchText } from "./SearchState.tsx";
+import { coverageSentence, surfaceText } from "./surfaceTexts.ts";
 import { useTypedText } from "./typedText.ts";
 import type { FieldProps } from "./types.ts";
+import { useEquation } from "./useEquation.ts";
 import "./fields.css";
 
 const NOTHING: Surface = { texts: { x: "", y: "", z: "" }, ranges: {} };
@@ -145,9 +148,9 @@ interface EquationProps {
 function Equation({ node, place, surface, letters }: EquationProps) {
     const { link, rest, stores } = useEditor();
     const texts = useProvable(place, surface.texts);
-    const answer = useEquation(texts, null);
-    const found = answer?.found ?? null;
-    const reason = answer?.problem?.message ?? (found?.drawable === false ? found.why : null);
+    const search = useEquation(texts, null, rangesOf(surface));
+    const { found, problem } = search;
+    const reason = problem?.message ?? (found?.drawable === false ? found.why : null);
     const make = async (equation: string): Promise<void> => {
         const { scene } = stores.document.getState();
         const quality = await qualityOf(
@@ -175,11 +178,15 @@ function Equation({ node, place, surface, letters }: EquationProps) {
     return (
         <div className="patches-equation">
             <p role="status" data-bad={reason !== null || undefined}>
-                {answer === null && surfaceText("busy")}
+                {searchText(search)}
                 {found?.drawable === true &&
                     surfaceText("found", { degree: found.degree, terms: found.terms })}
+                {found?.drawable === true &&
+                    found.coverage &&
+                    ` ${coverageSentence(found.coverage)}`}
                 {reason !== null && surfaceText("none", { reason: sentence(reason) })}
             </p>
+            <CancelSearch search={search} />
             {found?.drawable === true && (
                 <Button onClick={() => void make(found.equation)}>{surfaceText("make")}</Button>
             )}

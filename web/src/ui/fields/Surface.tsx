@@ -4,17 +4,18 @@
  * the node is: Patches.tsx. */
 import { CircleCheck, LoaderCircle, TriangleAlert } from "lucide-react";
 import { useEffect, useMemo, useState } from "react";
-import type { Proof } from "../../link/rest.ts";
+import { type Proof, verify } from "../../link/surfaceRest.ts";
 import { paramAt } from "../../model/document.ts";
 import type { JsonObject } from "../../model/json.ts";
 import { multiEdit } from "../../model/multiEdit.ts";
 import type { Value } from "../../model/schema.ts";
 import { readSurface, type Surface, type SurfaceValue } from "../../model/surface.ts";
+import { keepPatch } from "../../model/trim.ts";
 import { useDocument, useEditor } from "../state.ts";
 import { Button } from "../widgets/Button.tsx";
 import { FromParametric } from "./Parametric.tsx";
 import { PatchesField } from "./Patches.tsx";
-import { surfaceText } from "./surfaceTexts.ts";
+import { coverageSentence, surfaceText } from "./surfaceTexts.ts";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
@@ -101,8 +102,8 @@ function useProof(place: string): Proof | null {
     const { rest } = useEditor();
     const body = useDocument(({ schema, document }) => {
         const values = (document && paramAt(schema, document, place)?.values) ?? {};
-        const { equation, parametric, a, b, c, d } = values;
-        return JSON.stringify({ equation, parametric, a, b, c, d });
+        const { equation, parametric, clip, size, radius, a, b, c, d } = values;
+        return JSON.stringify({ equation, parametric, clip, size, radius, a, b, c, d });
     });
     const params = useMemo(() => JSON.parse(body) as JsonObject, [body]);
     const [proof, setProof] = useState<Proof | null>(null);
@@ -115,8 +116,8 @@ function useProof(place: string): Proof | null {
         };
         setProof(null);
         const timer = setTimeout(() => {
-            rest.verify(params, request.signal).then(tell, (problem) =>
-                tell({ verdict: "", reason: String(problem.message ?? problem) }),
+            verify(rest.request, params, request.signal).then(tell, (problem) =>
+                tell({ verdict: "", reason: String(problem.message ?? problem), coverage: null }),
             );
         }, ASK_MS);
         return () => {
@@ -132,10 +133,31 @@ function Badge({ place }: { place: string }) {
     const verified = proof?.verdict === "verified";
     const state = proof === null ? "busy" : verified ? "verified" : "unverified";
     const Icon = { busy: LoaderCircle, verified: CircleCheck, unverified: TriangleAlert }[state];
+    const coverage = proof?.coverage ?? null;
     return (
-        <p className="surface-badge" role="status" data-proof={state}>
-            <Icon size={14} aria-hidden="true" />
-            <span>{surfaceText(`proof.${state}`, { reason: proof?.reason ?? "" })}</span>
-        </p>
+        <div className="surface-told">
+            <p className="surface-badge" role="status" data-proof={state}>
+                <Icon size={14} aria-hidden="true" />
+                <span>
+                    {surfaceText(`proof.${state}`, { reason: proof?.reason ?? "" })}
+                    {coverage && `. ${coverageSentence(coverage)}`}
+                </span>
+            </p>
+            {coverage !== null && coverage.share < 1 && <Trim place={place} />}
+        </div>
+    );
+}
+
+/* What else the equation has goes away in one edit. */
+function Trim({ place }: { place: string }) {
+    const { link } = useEditor();
+    const node = /^\/nodes\/([^/]+)\//.exec(place)?.[1] ?? "";
+    const ops = useDocument(({ schema, document }) =>
+        JSON.stringify(document && keepPatch(schema, document, node)),
+    );
+    return ops === "null" ? null : (
+        <Button onClick={() => link.edit(JSON.parse(ops), { label: surfaceText("trimEdit") })}>
+            {surfaceText("trim")}
+        </Button>
     );
 }
