@@ -37,6 +37,35 @@ test('others are answered while an equation is sought, and it ends with the serv
     assert.equal(isAlgebra(child), false);
 });
 
+test('the process may be killed at any moment: the search fails, the next one and scenes go on', async () => {
+    const kills = 100;
+    const daemon = await startDaemon({ driver: 'null' });
+    const post = (path, asked) =>
+        fetch(`${daemon.url}${path}`, {
+            method: 'POST',
+            headers: { 'content-type': 'application/json' },
+            body: JSON.stringify(asked),
+        }).then((response) => response.json());
+    await ask(daemon, 'POST', '/v1/scenes?id=other', ball);
+    for (let i = 0; i < kills; i++) {
+        const { id } = await post('/v1/implicitize?wait=no', slow);
+        await until(() => algebraOf(daemon).length === 1, 'the process of the algebra');
+        await new Promise((done) => setTimeout(done, (i * 7) % 50));
+        algebraOf(daemon).forEach((pid) => process.kill(pid, 'SIGKILL'));
+        let seen;
+        await until(
+            async () => (seen = await (await fetch(`${daemon.url}/v1/implicitize/${id}`)).json()).state === 'failed',
+            'the end of a search',
+        );
+        assert.match(seen.error.message, /or was ended/);
+        const radius = 0.5 + i / 1000;
+        await ask(daemon, 'PATCH', '/v1/scenes/other', [{ op: 'set', at: '/nodes/ball/params/radius', value: radius }]);
+        assert.equal((await ask(daemon, 'GET', '/v1/scenes/other')).root.params.radius, radius);
+    }
+    assert.equal((await post('/v1/implicitize', { x: 's', y: 't', z: 's*t' })).equation, 'x*y-z');
+    await daemon.stop();
+});
+
 // --- steps ---
 
 const bicubic = { x: 's^3*t^3+s-2t^2+s^2*t', y: '2s^3*t^3+s^3-t+s*t-t^3*s^2', z: 's^3*t^3-t^3+s^2+s*t^2' };

@@ -11,6 +11,14 @@ const program = process.env.FIELDCAST ?? 'build/release/fieldcast';
 // the general surface of that kind: 2 m n for degrees m and n in the parameters, n^2 for a triangle.
 const d = '(5-3*cos(u)*cos(v))';
 const klein = '(2+cos(t/2)*sin(s)-sin(t/2)*sin(2*s))';
+// A patch by its control points; the rim of M. Newell's teapot (1975).
+const weights = (v) => [`(1-${v})^3`, `3${v}*(1-${v})^2`, `3${v}^2*(1-${v})`, `${v}^3`];
+const bezier = (rows) =>
+    [0, 1, 2].map((axis) =>
+        rows.flatMap((row, i) => row.map((p, j) => `(${p[axis]})*${weights('s')[i]}*${weights('t')[j]}`)).join('+'),
+    );
+const arc = (r, part, z) => [[r, 0, z], [r, -part, z], [part, -r, z], [0, -r, z]];
+const rim = bezier([arc(1.4, 0.784, 2.4), arc(1.3375, 0.749, 2.53125), arc(1.4375, 0.805, 2.53125), arc(1.5, 0.84, 2.4)]);
 const SURFACES = [
     ['plane', ['s', 't', '1+s-2*t'], 1, 4],
     ['cylinder', ['cos(s)', 'sin(s)', 't'], 2, 3],
@@ -35,6 +43,7 @@ const SURFACES = [
     ['Enneper', ['s-s^3/3+s*t^2', 't-t^3/3+t*s^2', 's^2-t^2'], 9, 23],
     ['Klein bottle', [`${klein}*cos(t)`, `${klein}*sin(t)`, 'sin(t/2)*sin(s)+cos(t/2)*sin(2s)'], 12, 157],
     ['Henneberg', ['2sinh(s)*cos(t)-2/3*sinh(3s)*cos(3t)', '2sinh(s)*sin(t)+2/3*sinh(3s)*sin(3t)', '2cosh(2s)*cos(2t)'], 15, 127],
+    ['rim of the teapot', rim, 9, 106],
     ['biquadratic patch', ['s+s^2*t^2-t', 't+2s^2-s*t^2', 's t+3s^2*t-t^2+1'], 8, null],
     ['cubic triangle', ['s^3+2s*t-t', 't^3-s^2+s', 's^2*t+s*t^2+t^2-s'], 9, null],
     ['bicubic patch', ['s^3*t^3+s-2t^2', '2s^3*t^3+s^3-t+s t', 's^3*t^3+t^3+s^2'], 18, null],
