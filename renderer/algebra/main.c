@@ -253,7 +253,11 @@ static bool read_ranges(struct question *out, struct error *err)
     for (int i = SURFACE_PARTS; i < SURFACE_MEMBERS; i++) {
         out->ranged = out->ranged || record_is_set(out->asked, surface_names[i]);
     }
-    return !out->ranged || surface_read(&out->surface, out->parametric, "", err);
+    const bool ok = !out->ranged || surface_read(&out->surface, out->parametric, "", err);
+    if (!ok && err->place[0] == '/') { /* as those of texts */
+        memmove(err->place, err->place + 1, strlen(err->place));
+    }
+    return ok;
 }
 
 static cJSON *implicitize_asked(const char *text)
