@@ -323,15 +323,6 @@ LANES_INLINE vb vb_of_i(vi x)
     return x != 0;
 }
 
-LANES_INLINE vu vu_bitfieldReverse(vu x)
-{
-    x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
-    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
-    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
-    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
-    return (x >> 16) | (x << 16);
-}
-
 /* --- functions by polynomials: Cephes Mathematical Library 2.8, single precision (Moshier,
  * netlib.org/cephes: sinf.c, expf.c, logf.c, atanf.c, asinf.c); errors are a few units in the last
  * place --- */
@@ -617,10 +608,6 @@ LANES_INLINE int i_abs(int a)
 LANES_INLINE int i_clamp(int x, int low, int high)
 {
     return i_min(i_max(x, low), high);
-}
-LANES_INLINE unsigned u_bitfieldReverse(unsigned x)
-{
-    return vu_bitfieldReverse(vu_all(x))[0];
 }
 LANES_INLINE unsigned u_min(unsigned a, unsigned b)
 {

@@ -3,6 +3,7 @@
  * depend on the tile it is drawn in. */
 
 #include "frame.glsl"
+#include "radical_inverse.glsl"
 #include "ray.glsl"
 
 /* The pinhole's ray through a place of the picture, in pixels from its left top. */
@@ -45,7 +46,7 @@ float pixel_noise(ivec2 pixel)
  * to and fro (van der Corput), so that the first few of many are spread over the whole lens. */
 vec2 lens_place(ivec2 pixel, int i, int count)
 {
-    float part = float(bitfieldReverse(uint(i))) * 2.3283064365386963e-10;
+    float part = radical_inverse(i);
     float r = sqrt(part + 0.5 / float(count));
     float angle = 2.39996323 * float(i) + 6.2831853 * pixel_noise(pixel);
     return r * vec2(cos(angle), sin(angle));

@@ -2,6 +2,7 @@
 /* What the pictures of an environment are made of, texel by texel: the sky where there is no
  * picture, what surfaces reflect of it, and what falls on diffuse ones. */
 
+#include "radical_inverse.glsl"
 #include "sky.glsl"
 
 /* `place`: longitude and latitude, 0 to 1: the other way round than map_coordinates(). */
@@ -24,12 +25,6 @@ vec3 environment_sky(ivec2 here, ivec2 size)
 {
     vec2 place = (vec2(here) + 0.5) / vec2(size);
     return min(sky_plain(map_direction(place), 0.0), HALF_MAX);
-}
-
-/* The bits of i, mirrored behind the point: van der Corput's sequence. */
-float radical_inverse(int i)
-{
-    return float(bitfieldReverse(uint(i))) * 2.3283064365386963e-10;
 }
 
 /* A frame around n; the rotation is any. */

@@ -3,8 +3,6 @@
  * pixel, RAYS of each sample after the first, TRANSMISSION_DEPTH surfaces between what is met and a
  * light; the camera looks at TARGET. */
 
-#include "webgl_builtins.glsl"
-
 #include "sample.glsl"
 #include "screen.glsl"
 #include "sums.glsl"

@@ -30,7 +30,6 @@ static const struct spmd_builtin builtins[] = {
     {"all", GIVES_BOOL, WRITTEN_SPECIAL},
     {"uintBitsToFloat", GIVES_FLOATS, WRITTEN_SPECIAL},
     {"floatBitsToUint", GIVES_UINTS, WRITTEN_SPECIAL},
-    {"bitfieldReverse", GIVES_SAME, WRITTEN_EACH},
     {"texelFetch", GIVES_VEC4, WRITTEN_SPECIAL}, {"textureLod", GIVES_VEC4, WRITTEN_SPECIAL},
     {"textureSize", GIVES_IVEC2, WRITTEN_SPECIAL},
     /* Number i of the scene's vec4s, and of the instruction's own. */
