@@ -37,6 +37,7 @@ static void read_info(struct renderer *renderer)
     snprintf(info->version, sizeof info->version, "%s", version ? version : "");
     snprintf(info->device, sizeof info->device, "%s", renderer->egl.device);
     info->software = renderer->egl.software;
+    info->compute = gl->has_compute;
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &info->max_texture);
 }
 
@@ -54,6 +55,21 @@ static void go_without(struct renderer *renderer)
     egl_finish(&renderer->egl);
     snprintf(info->name, sizeof info->name, "no graphics device");
     info->none = info->software = true;
+}
+
+enum render_stage renderer_best_stage(const struct renderer_info *info)
+{
+    return info->software ? RENDER_ENGINE : info->compute ? RENDER_COMPUTE : RENDER_FRAGMENT;
+}
+
+static bool has_stage(const struct renderer *renderer, enum render_stage stage, struct error *err)
+{
+    const struct renderer_info *info = &renderer->info;
+
+    return stage != RENDER_COMPUTE || info->compute ||
+           error_set(err, ERROR_UNAVAILABLE, "",
+                     "compute shaders need OpenGL 4.3; %s has %s, enough for fragment shaders",
+                     info->name, info->version);
 }
 
 /* The one that is asked for; or none, where none is, or where the engine may draw in any case. */
@@ -93,10 +109,10 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     renderer->params = *params;
     renderer->bin = scene_bin_create();
     renderer->sink = (struct gl_sink){params->log, params->log_data};
-    if (!open_device(renderer, err)) {
+    if (!open_device(renderer, err) || !has_stage(renderer, params->stage, err)) {
         goto fail;
     }
-    renderer->best = renderer->info.software ? RENDER_ENGINE : RENDER_COMPUTE;
+    renderer->best = renderer_best_stage(&renderer->info);
     renderer_use_stage(renderer, params->stage);
     renderer->draw = draw_create(&renderer->gl, renderer->info.software, params->tile_side);
     renderer_share(renderer, false);
@@ -112,7 +128,7 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
          !program_cache_start(renderer->programs, err))) {
         goto fail;
     }
-    if (params->stage == RENDER_AUTO && !renderer->info.software) {
+    if (params->stage == RENDER_AUTO && renderer->best == RENDER_COMPUTE) {
         renderer->best = stage_trial(renderer);
         renderer_use_stage(renderer, RENDER_AUTO);
     }

@@ -27,7 +27,7 @@ struct job;      /* one picture being drawn, tile by tile */
 
 /* What computes pictures. */
 enum render_stage {
-    RENDER_AUTO,     /* the engine where the device is software, else the faster shaders */
+    RENDER_AUTO,     /* the engine where the device is software, else the faster shaders of it */
     RENDER_COMPUTE,  /* compute shaders of the device */
     RENDER_FRAGMENT, /* fragment shaders of the device */
     RENDER_ENGINE,   /* vectors of the processors (renderer/engine) */
@@ -61,16 +61,19 @@ struct renderer_info {
     char name[128], version[128], device[192]; /* GL_RENDERER, GL_VERSION, path to the device */
     bool none;                                 /* no device: the engine draws */
     bool software;                             /* also without a device */
+    bool compute;                              /* it has compute shaders: OpenGL 4.3 */
     enum render_stage stage;                   /* never RENDER_AUTO */
     int max_texture;
 };
 
-/* Loads GL, makes the context; NULL and `err` below GL 4.3 core, or without a device that `params`
- * asks for. With DEVICE_AUTO the engine draws where no device can be opened; the log says why. */
+/* Loads GL, makes the context; NULL and `err` below GL 3.3 core, below 4.3 with RENDER_COMPUTE, or
+ * without a device that `params` asks for. With DEVICE_AUTO the engine draws where no device can be
+ * opened; the log says why. */
 struct renderer *renderer_create(const struct renderer_params *params, struct error *err);
 void renderer_destroy(struct renderer *renderer);
 /* Scenes that are opened or edited from now on are drawn so; RENDER_AUTO as at first. A renderer
- * of a GPU that was made for RENDER_COMPUTE has no other; one without a device has the engine. */
+ * of a GPU that was made for RENDER_COMPUTE has no other; one without a device has the engine.
+ * RENDER_COMPUTE needs `compute`. */
 void renderer_use_stage(struct renderer *renderer, enum render_stage stage);
 const struct renderer_info *renderer_info(const struct renderer *renderer);
 /* Tries every device as renderer_create would; writes at most `max` rows, returns how many. */

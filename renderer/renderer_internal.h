@@ -36,6 +36,9 @@ struct renderer {
     bool told_read;    /* the same of on_read */
 };
 
+/* What RENDER_AUTO is before a trial: never compute shaders where the device has none. */
+enum render_stage renderer_best_stage(const struct renderer_info *info);
+
 enum { ISOLATIONS_KEPT = 8 }; /* of a scene; the least recently used go beyond this */
 
 /* A scene with nodes isolated: of the same program as the scene itself. */

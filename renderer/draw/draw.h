@@ -89,6 +89,7 @@ struct draw_picture {
     bool rounds;
     int from, until;
     GLuint kept, kept_counted; /* 0: there is one round */
+    GLuint keeper;             /* the framebuffer by which they are copied */
     int left, top;             /* of the region */
 };
 

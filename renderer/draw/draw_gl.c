@@ -75,6 +75,7 @@ void draw_gl_end(struct draw *draw, struct draw_picture *picture)
     gl->DeleteBuffers(1, &picture->frame);
     gl->DeleteTextures(1, &picture->kept);
     gl->DeleteTextures(1, &picture->kept_counted);
+    gl->DeleteFramebuffers(1, &picture->keeper);
     for (int i = 0; i < TILES_IN_FLIGHT; i++) {
         struct tile_in_flight *slot = &picture->slots[i];
         if (slot->fence) {
@@ -94,6 +95,7 @@ void draw_gl_keep(struct draw *draw, struct draw_picture *picture, struct tile r
     draw->gl->ActiveTexture(GL_TEXTURE0);
     picture->kept = texture_create(draw->gl, GL_RGBA32F, region.width, region.height);
     picture->kept_counted = texture_create(draw->gl, counted, region.width, region.height);
+    draw->gl->GenFramebuffers(1, &picture->keeper);
     picture->left = region.x;
     picture->top = region.y;
 }
@@ -105,13 +107,15 @@ void draw_gl_copy_kept(const struct gl *gl, const struct draw_picture *picture, 
     const int x = tile.x - picture->left, y = tile.y - picture->top;
     const GLuint ours[] = {picture->kept, picture->kept_counted}, targets[] = {pixels, counted};
 
+    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, picture->keeper);
     for (int i = 0; i < 2; i++) {
+        texture_bind(gl, UNIT_COUNT, back ? targets[i] : ours[i]);
+        gl->FramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                                 back ? ours[i] : targets[i], 0);
         if (back) {
-            gl->CopyImageSubData(ours[i], GL_TEXTURE_2D, 0, x, y, 0, targets[i], GL_TEXTURE_2D, 0,
-                                 margin, margin, 0, tile.width, tile.height, 1);
+            gl->CopyTexSubImage2D(GL_TEXTURE_2D, 0, margin, margin, x, y, tile.width, tile.height);
         } else {
-            gl->CopyImageSubData(targets[i], GL_TEXTURE_2D, 0, margin, margin, 0, ours[i],
-                                 GL_TEXTURE_2D, 0, x, y, 0, tile.width, tile.height, 1);
+            gl->CopyTexSubImage2D(GL_TEXTURE_2D, 0, x, y, margin, margin, tile.width, tile.height);
         }
     }
 }

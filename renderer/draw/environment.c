@@ -64,8 +64,8 @@ static GLuint upload(const struct gl *gl, const struct engine_map *map)
 
     gl->GenTextures(1, &texture);
     gl->BindTexture(GL_TEXTURE_2D, texture);
-    gl->TexStorage2D(GL_TEXTURE_2D, map->levels, GL_RGBA16F, map->width, map->height);
     texture_set_environment(gl, map->levels);
+    texture_allocate(gl, GL_RGBA16F, map->levels, map->width, map->height);
     gl->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
     for (int level = 0; level < map->levels; level++) {
         gl->TexSubImage2D(GL_TEXTURE_2D, level, 0, 0, engine_map_side(map->width, level),

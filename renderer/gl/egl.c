@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { GL_MAJOR_NEEDED = 4, GL_MINOR_NEEDED = 3 };
+/* OpenGL times ten: with compute shaders, and what is needed at least. */
+enum { GL_BEST = 43, GL_LEAST = 33 };
 
 /* One way to a display: an EGL device, or the surfaceless platform of Mesa. */
 struct candidate {
@@ -102,29 +103,29 @@ static size_t list_candidates(struct candidate out[EGL_DEVICES_MAX + 1])
     return used;
 }
 
-static EGLContext make_context(EGLDisplay display, EGLContext share, bool robust, bool debug)
+static EGLContext make_context(const struct egl *egl, EGLContext share)
 {
     EGLint attributes[24];
     size_t n = 0;
 
     attributes[n++] = EGL_CONTEXT_MAJOR_VERSION;
-    attributes[n++] = GL_MAJOR_NEEDED;
+    attributes[n++] = egl->version / 10;
     attributes[n++] = EGL_CONTEXT_MINOR_VERSION;
-    attributes[n++] = GL_MINOR_NEEDED;
+    attributes[n++] = egl->version % 10;
     attributes[n++] = EGL_CONTEXT_OPENGL_PROFILE_MASK;
     attributes[n++] = EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT;
-    if (debug) {
+    if (egl->debug) {
         attributes[n++] = EGL_CONTEXT_OPENGL_DEBUG;
         attributes[n++] = EGL_TRUE;
     }
-    if (robust) {
+    if (egl->robust) {
         attributes[n++] = EGL_CONTEXT_OPENGL_ROBUST_ACCESS;
         attributes[n++] = EGL_TRUE;
         attributes[n++] = EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY;
         attributes[n++] = EGL_LOSE_CONTEXT_ON_RESET;
     }
     attributes[n] = EGL_NONE;
-    return eglCreateContext(display, EGL_NO_CONFIG_KHR, share, attributes);
+    return eglCreateContext(egl->display, EGL_NO_CONFIG_KHR, share, attributes);
 }
 
 static EGLDisplay open_display(const struct candidate *candidate)
@@ -136,25 +137,29 @@ static EGLDisplay open_display(const struct candidate *candidate)
 
 static bool make_draw_context(struct egl *egl, struct error *err)
 {
-    egl->robust = true;
-    egl->draw = make_context(egl->display, EGL_NO_CONTEXT, true, egl->debug);
-    if (egl->draw == EGL_NO_CONTEXT) {
-        egl->robust = false;
-        egl->draw = make_context(egl->display, EGL_NO_CONTEXT, false, egl->debug);
+    static const struct {
+        int version;
+        bool robust;
+    } wishes[] = {{GL_BEST, true}, {GL_BEST, false}, {GL_LEAST, true}, {GL_LEAST, false}};
+
+    for (size_t i = 0; i < sizeof wishes / sizeof wishes[0]; i++) {
+        egl->version = wishes[i].version;
+        egl->robust = wishes[i].robust;
+        egl->draw = make_context(egl, EGL_NO_CONTEXT);
+        if (egl->draw != EGL_NO_CONTEXT) {
+            return true;
+        }
     }
-    if (egl->draw == EGL_NO_CONTEXT) {
-        return error_set(err, ERROR_UNAVAILABLE, "",
-                         "no OpenGL %d.%d core context (%s), which fieldcast needs",
-                         GL_MAJOR_NEEDED, GL_MINOR_NEEDED, egl_error_name(eglGetError()));
-    }
-    return true;
+    return error_set(err, ERROR_UNAVAILABLE, "",
+                     "no OpenGL %d.%d core context (%s), which fieldcast needs", GL_LEAST / 10,
+                     GL_LEAST % 10, egl_error_name(eglGetError()));
 }
 
 bool egl_make_compilers(struct egl *egl, struct error *err)
 {
     for (int i = 0; i < EGL_COMPILERS; i++) {
         if (egl->compile[i] == EGL_NO_CONTEXT) {
-            egl->compile[i] = make_context(egl->display, egl->draw, egl->robust, egl->debug);
+            egl->compile[i] = make_context(egl, egl->draw);
         }
         if (egl->compile[i] == EGL_NO_CONTEXT) {
             return egl_fail(err, "no second context that shares objects");
@@ -254,7 +259,13 @@ static void prepare_environment(const struct device_params *params)
     }
 }
 
-/* GPUs first, in the driver's order; the best stays open in `*out`. Rows may be NULL. */
+static int rank(const struct egl *egl)
+{
+    return (egl->software ? 0 : 2) + (egl->version == GL_BEST);
+}
+
+/* GPUs first, and those with compute shaders before others, in the driver's order; the best stays
+ * open in `*out`. Rows may be NULL. */
 static bool choose(struct egl *out, const struct device_params *params, struct device_report *rows,
                    size_t max_rows, size_t *out_count)
 {
@@ -278,10 +289,12 @@ static bool choose(struct egl *out, const struct device_params *params, struct d
             row.usable = true;
             row.software = egl.software;
             why = objection(&egl, (int)i, params);
-            if (!why && found && (egl.software || !best.software)) {
+            if (!why && found && rank(&egl) <= rank(&best)) {
                 why = "works; an earlier device is as good";
             }
-            snprintf(row.verdict, sizeof row.verdict, "%.90s: %s", name, why ? why : "works");
+            snprintf(row.verdict, sizeof row.verdict, "%.90s%s: %s", name,
+                     egl.version == GL_BEST ? "" : " (without compute shaders)",
+                     why ? why : "works");
             if (why) {
                 egl_finish(&egl);
             } else {

@@ -16,6 +16,7 @@ struct egl {
     EGLDisplay display;
     EGLContext draw, compile[EGL_COMPILERS]; /* sharing objects; one thread each */
     bool software;
+    int version; /* of OpenGL that the contexts were made for, times ten */
     bool debug;
     bool robust; /* the contexts report resets */
     char device[192];

@@ -5,6 +5,16 @@
 #include <EGL/egl.h>
 #include <stdio.h>
 
+static bool is_43(const struct gl *gl)
+{
+    GLint major = 0, minor = 0;
+
+    gl->GetIntegerv(GL_MAJOR_VERSION, &major);
+    gl->GetIntegerv(GL_MINOR_VERSION, &minor);
+    return major > 4 || (major == 4 && minor >= 3);
+}
+
+/* Functions above the context's version stay NULL: drivers give addresses of them all the same. */
 bool gl_load(struct gl *out_gl, struct error *err)
 {
     struct gl gl = {0};
@@ -16,6 +26,10 @@ bool gl_load(struct gl *out_gl, struct error *err)
         missing = "gl" #name;                                                                      \
     }
     GL_FUNCTIONS(X)
+    gl.has_compute = !missing && is_43(&gl);
+    if (gl.has_compute) {
+        GL_COMPUTE_FUNCTIONS(X)
+    }
 #undef X
     if (missing) {
         return error_set(err, ERROR_UNAVAILABLE, "", "the OpenGL driver has no function %s",
@@ -45,7 +59,7 @@ static void APIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum se
 
 void gl_debug(const struct gl *gl, const struct gl_sink *sink)
 {
-    if (sink->log) {
+    if (sink->log && gl->has_compute) {
         gl->Enable(GL_DEBUG_OUTPUT);
         gl->DebugMessageCallback(on_message, sink);
     }

@@ -9,14 +9,13 @@
 
 #include "protocol/error.h"
 
-/* X(PFN suffix, name without gl): the one list. */
+/* X(PFN suffix, name without gl): the one list of what is called, from OpenGL 3.3 on; */
 #define GL_FUNCTIONS(X)                                                                            \
     X(ACTIVETEXTURE, ActiveTexture)                                                                \
     X(ATTACHSHADER, AttachShader)                                                                  \
     X(BINDBUFFER, BindBuffer)                                                                      \
     X(BINDBUFFERBASE, BindBufferBase)                                                              \
     X(BINDFRAMEBUFFER, BindFramebuffer)                                                            \
-    X(BINDIMAGETEXTURE, BindImageTexture)                                                          \
     X(BINDTEXTURE, BindTexture)                                                                    \
     X(BINDVERTEXARRAY, BindVertexArray)                                                            \
     X(BLENDFUNC, BlendFunc)                                                                        \
@@ -26,10 +25,9 @@
     X(CLEAR, Clear)                                                                                \
     X(CLIENTWAITSYNC, ClientWaitSync)                                                              \
     X(COMPILESHADER, CompileShader)                                                                \
-    X(COPYIMAGESUBDATA, CopyImageSubData)                                                          \
+    X(COPYTEXSUBIMAGE2D, CopyTexSubImage2D)                                                        \
     X(CREATEPROGRAM, CreateProgram)                                                                \
     X(CREATESHADER, CreateShader)                                                                  \
-    X(DEBUGMESSAGECALLBACK, DebugMessageCallback)                                                  \
     X(DELETEBUFFERS, DeleteBuffers)                                                                \
     X(DELETEFRAMEBUFFERS, DeleteFramebuffers)                                                      \
     X(DELETEPROGRAM, DeleteProgram)                                                                \
@@ -39,8 +37,6 @@
     X(DELETETEXTURES, DeleteTextures)                                                              \
     X(DELETEVERTEXARRAYS, DeleteVertexArrays)                                                      \
     X(DISABLE, Disable)                                                                            \
-    X(DISPATCHCOMPUTE, DispatchCompute)                                                            \
-    X(DISPATCHCOMPUTEINDIRECT, DispatchComputeIndirect)                                            \
     X(DRAWARRAYS, DrawArrays)                                                                      \
     X(DRAWBUFFERS, DrawBuffers)                                                                    \
     X(ENABLE, Enable)                                                                              \
@@ -63,18 +59,17 @@
     X(GETSHADERIV, GetShaderiv)                                                                    \
     X(GETSTRING, GetString)                                                                        \
     X(GETUNIFORMBLOCKINDEX, GetUniformBlockIndex)                                                  \
+    X(GETUNIFORMLOCATION, GetUniformLocation)                                                      \
     X(LINKPROGRAM, LinkProgram)                                                                    \
     X(MAPBUFFERRANGE, MapBufferRange)                                                              \
-    X(MEMORYBARRIER, MemoryBarrier)                                                                \
     X(PIXELSTOREI, PixelStorei)                                                                    \
     X(QUERYCOUNTER, QueryCounter)                                                                  \
     X(READBUFFER, ReadBuffer)                                                                      \
     X(READPIXELS, ReadPixels)                                                                      \
     X(SHADERSOURCE, ShaderSource)                                                                  \
     X(TEXBUFFER, TexBuffer)                                                                        \
+    X(TEXIMAGE2D, TexImage2D)                                                                      \
     X(TEXPARAMETERI, TexParameteri)                                                                \
-    X(TEXSTORAGE2D, TexStorage2D)                                                                  \
-    X(TEXSTORAGE3D, TexStorage3D)                                                                  \
     X(TEXSUBIMAGE2D, TexSubImage2D)                                                                \
     X(UNIFORM1I, Uniform1i)                                                                        \
     X(UNIFORM2I, Uniform2i)                                                                        \
@@ -82,11 +77,21 @@
     X(UNMAPBUFFER, UnmapBuffer)                                                                    \
     X(USEPROGRAM, UseProgram)                                                                      \
     X(VIEWPORT, Viewport)
+/* and from 4.3 on, where there are compute shaders. */
+#define GL_COMPUTE_FUNCTIONS(X)                                                                    \
+    X(BINDIMAGETEXTURE, BindImageTexture)                                                          \
+    X(DEBUGMESSAGECALLBACK, DebugMessageCallback)                                                  \
+    X(DISPATCHCOMPUTE, DispatchCompute)                                                            \
+    X(DISPATCHCOMPUTEINDIRECT, DispatchComputeIndirect)                                            \
+    X(MEMORYBARRIER, MemoryBarrier)                                                                \
+    X(TEXSTORAGE3D, TexStorage3D)
 
 struct gl {
 #define X(upper, name) PFNGL##upper##PROC name;
     GL_FUNCTIONS(X)
+    GL_COMPUTE_FUNCTIONS(X) /* NULL without has_compute */
 #undef X
+    bool has_compute; /* of OpenGL 4.3 */
     /* NULL where the context cannot lose itself. */
     PFNGLGETGRAPHICSRESETSTATUSPROC GetGraphicsResetStatus;
 };
@@ -99,7 +104,8 @@ struct gl_sink {
     void (*log)(void *data, const char *line); /* may be NULL */
     void *data;
 };
-/* Sends what the driver reports as an error, or as of high severity, to `sink`. */
+/* Sends what the driver reports as an error, or as of high severity, to `sink`; nothing below
+ * OpenGL 4.3. */
 void gl_debug(const struct gl *gl, const struct gl_sink *sink);
 
 /* "GL_OUT_OF_MEMORY" */

@@ -6,6 +6,7 @@
 
 #include "pass.h"
 #include "protocol/memory.h"
+#include "texture.h"
 
 bool param_buffer_in_texture(const struct gl *gl, bool software, size_t capacity)
 {
@@ -19,14 +20,9 @@ static GLuint make_texture(const struct gl *gl, const float *values, size_t capa
 {
     const GLsizei width = capacity < PARAM_BUFFER_ROW ? (GLsizei)capacity : PARAM_BUFFER_ROW;
     const GLsizei height = (GLsizei)(capacity / (size_t)width);
-    GLuint texture = 0;
 
-    gl->GenTextures(1, &texture);
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_PARAMS);
-    gl->BindTexture(GL_TEXTURE_2D, texture);
-    gl->TexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32F, width, height);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    const GLuint texture = texture_create(gl, GL_RGBA32F, width, height);
     gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, values);
     return texture;
 }

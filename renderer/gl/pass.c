@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "layouts.h"
 #include "protocol/memory.h"
 
 enum { LOG_BYTES = 4096 };
@@ -86,36 +87,74 @@ static bool link(const struct gl *gl, GLuint program, struct error *err)
 
 /* Compiles one stage and gives it to the program. */
 static bool attach(const struct gl *gl, GLuint program, GLenum stage,
-                   const struct pass_source *source, struct error *err)
+                   const struct shader_text *text, struct error *err)
 {
-    const char *defines = source->defines ? source->defines : "";
-    const size_t head_size = strlen(defines) + 32;
-    char *head = memory_alloc(1, head_size);
-    struct shader_text text;
-    GLuint shader = 0;
+    const GLuint shader = compile(gl, stage, text, err);
 
-    snprintf(head, head_size, "#version 430 core\n%s", defines);
-    if (include_resolve(&text, head, source->file, source->own, err)) {
-        shader = compile(gl, stage, &text, err);
-        include_finish(&text);
-    }
     if (shader) {
         gl->AttachShader(program, shader);
         gl->DeleteShader(shader); /* when the program goes */
     }
-    free(head);
     return shader != 0;
+}
+
+static bool compose(struct shader_text *out_text, const struct gl *gl,
+                    const struct pass_source *source, struct error *err)
+{
+    const char *defines = source->defines ? source->defines : "";
+    const size_t head_size = strlen(defines) + 32;
+    char *head = memory_alloc(1, head_size);
+
+    snprintf(head, head_size, "#version %d core\n%s", gl->has_compute ? 430 : 330, defines);
+    const bool ok = include_resolve(out_text, head, source->file, source->own, err);
+    free(head);
+    return ok;
+}
+
+/* The members of a struct with a location have those that follow it (OpenGL 4.3, 4.4.3). */
+static bool build_compute(struct pass *pass, const struct gl *gl, const struct shader_text *text,
+                          struct error *err)
+{
+    for (int i = 0; i < LOCATION_COUNT; i++) {
+        pass->locations[i] = i;
+    }
+    return attach(gl, pass->program, GL_COMPUTE_SHADER, text, err) && link(gl, pass->program, err);
+}
+
+static bool build_fragment(struct pass *pass, const struct gl *gl, struct shader_text *text,
+                           struct error *err)
+{
+    const struct pass_source full = {.file = "full.glsl"};
+    char *whole = memory_text(text->text);
+    struct shader_text vertex = {0};
+
+    layouts_leave_out(text->text);
+    const bool ok = compose(&vertex, gl, &full, err) &&
+                    attach(gl, pass->program, GL_VERTEX_SHADER, &vertex, err) &&
+                    attach(gl, pass->program, GL_FRAGMENT_SHADER, text, err) &&
+                    link(gl, pass->program, err);
+    if (ok) {
+        layouts_set(gl, pass->program, whole, pass->locations);
+    }
+    include_finish(&vertex);
+    free(whole);
+    return ok;
 }
 
 bool pass_init(struct pass *out_pass, const struct gl *gl, const struct pass_source *source,
                struct error *err)
 {
-    const struct pass_source vertex = {.file = "full.glsl"};
-    const GLenum stage = source->compute ? GL_COMPUTE_SHADER : GL_FRAGMENT_SHADER;
-    struct pass pass = {.program = gl->CreateProgram()};
+    struct pass pass = {0};
+    struct shader_text text;
 
-    if ((!source->compute && !attach(gl, pass.program, GL_VERTEX_SHADER, &vertex, err)) ||
-        !attach(gl, pass.program, stage, source, err) || !link(gl, pass.program, err)) {
+    if (!compose(&text, gl, source, err)) {
+        return false;
+    }
+    pass.program = gl->CreateProgram();
+    const bool ok = source->compute ? build_compute(&pass, gl, &text, err)
+                                    : build_fragment(&pass, gl, &text, err);
+    include_finish(&text);
+    if (!ok) {
         pass_finish(&pass, gl);
         return false;
     }
@@ -131,17 +170,18 @@ void pass_finish(struct pass *pass, const struct gl *gl)
     *pass = (struct pass){0};
 }
 
-/* Members of a struct with a location of its own have those that follow it (OpenGL 4.3, 4.4.3);
- * what a program does not use is passed over. */
+/* What a program does not use is passed over. */
 static void use(const struct pass *pass, const struct gl *gl, const struct dispatch_args *dispatch,
                 struct pass_args args)
 {
+    const GLint *own = pass->locations + DISPATCH_LOCATION;
+
     gl->UseProgram(pass->program);
-    gl->Uniform2i(DISPATCH_LOCATION, dispatch->x, dispatch->y);
-    gl->Uniform1i(DISPATCH_LOCATION + 1, (GLint)dispatch->mode);
-    gl->Uniform1i(DISPATCH_LOCATION + 2, 0);
+    gl->Uniform2i(own[0], dispatch->x, dispatch->y);
+    gl->Uniform1i(own[1], (GLint)dispatch->mode);
+    gl->Uniform1i(own[2], 0);
     for (int i = 0; i < args.count; i++) {
-        gl->Uniform1i(ARGS_LOCATION + i, args.values[i]);
+        gl->Uniform1i(pass->locations[ARGS_LOCATION + i], args.values[i]);
     }
 }
 

@@ -31,6 +31,7 @@ struct pass_args {
 
 struct pass {
     GLuint program;
+    GLint locations[LOCATION_COUNT]; /* DISPATCH_LOCATION, ARGS_LOCATION and those that follow */
 };
 
 struct pass_source {

@@ -9,14 +9,32 @@ static void set_filter(const struct gl *gl, GLenum target)
     gl->TexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
+static int half(int length)
+{
+    return length > 1 ? length / 2 : 1;
+}
+
+void texture_allocate(const struct gl *gl, GLenum format, int levels, int width, int height)
+{
+    const bool whole = format == GL_R32UI || format == GL_RGBA32UI;
+
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
+    for (int level = 0; level < levels; level++) {
+        gl->TexImage2D(GL_TEXTURE_2D, level, (GLint)format, width, height, 0,
+                       whole ? GL_RGBA_INTEGER : GL_RGBA, whole ? GL_UNSIGNED_INT : GL_FLOAT, NULL);
+        width = half(width);
+        height = half(height);
+    }
+}
+
 GLuint texture_create(const struct gl *gl, GLenum format, int width, int height)
 {
     GLuint texture = 0;
 
     gl->GenTextures(1, &texture);
     gl->BindTexture(GL_TEXTURE_2D, texture);
-    gl->TexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
     set_filter(gl, GL_TEXTURE_2D);
+    texture_allocate(gl, format, 1, width, height);
     return texture;
 }
 

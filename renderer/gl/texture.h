@@ -15,6 +15,8 @@ struct outputs {
 
 /* All have the same state of their sampler: llvmpipe compiles a program again for another one. */
 GLuint texture_create(const struct gl *gl, GLenum format, int width, int height);
+/* Of the bound texture: room for its levels, each half as large as the one before. */
+void texture_allocate(const struct gl *gl, GLenum format, int levels, int width, int height);
 GLuint texture_create_layers(const struct gl *gl, GLenum format, int side, int layers);
 /* Of the bound texture, with so many levels, a picture of what is around: longitudes meet,
  * latitudes end. */

@@ -12,8 +12,8 @@ static void make_skies(struct warm_targets *targets, const struct gl *gl)
         gl->ActiveTexture(GL_TEXTURE0 + sky_units[i]);
         gl->GenTextures(1, &targets->maps[i]);
         gl->BindTexture(GL_TEXTURE_2D, targets->maps[i]);
-        gl->TexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA16F, 4, 2);
         texture_set_environment(gl, levels);
+        texture_allocate(gl, GL_RGBA16F, levels, 4, 2);
     }
 }
 

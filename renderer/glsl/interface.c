@@ -85,7 +85,8 @@ enum {
 #define COUNTED(...) +1
 #define INTEGERS(list) (sizeof(int32_t) * (0 list(COUNTED)))
 #define ARGS_FIT(owner, list)                                                                      \
-    _Static_assert(sizeof(struct owner) == INTEGERS(list), #owner " is no array of integers");
+    _Static_assert(sizeof(struct owner) == INTEGERS(list), #owner " is no array of integers");     \
+    _Static_assert(ARGS_LOCATION + (0 list(COUNTED)) <= LOCATION_COUNT, #owner " is too large");
 
 /* clang-format off */
 LIGHT_MEMBERS(LIGHT_AT)
@@ -117,6 +118,16 @@ static void write_constants(FILE *out, const struct constant *rows)
     for (; rows->name; rows++) {
         fprintf(out, "#define %s %d\n", rows->name, rows->value);
     }
+}
+
+int interface_place(const char *name)
+{
+    for (const struct constant *row = places; row->name; row++) {
+        if (strcmp(row->name, name) == 0) {
+            return row->value;
+        }
+    }
+    return -1;
 }
 
 /* What both kinds of programs know. */

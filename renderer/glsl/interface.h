@@ -270,6 +270,7 @@ enum {
     SPECULAR_LEVELS = 4,          /* of roughness, in the specular map */
     DISPATCH_LOCATION = 0,        /* the first one of struct Dispatch, */
     ARGS_LOCATION = 4,            /* of a pass's args */
+    LOCATION_COUNT = 10,          /* of both together */
 };
 
 struct frame_light {
@@ -310,6 +311,8 @@ struct trace_args {
     TRACE_ARGS(INTERFACE_ARG)
 };
 
+/* The number that stands for a binding, unit or location in texts: "UNIT_MASK". -1: none does. */
+int interface_place(const char *name);
 /* The text of "interface.glsl". */
 void interface_write(FILE *out);
 /* The same for a program without uniforms: `frame` is a constant, `camera` and `dispatch`

@@ -172,7 +172,7 @@ bool bench_compare_stages(struct renderer *renderer, const struct embedded *exam
     static const char *const fragment[] = {"fragment_ratio", "fragment_differs"};
     static const char *const engine[] = {"engine_ratio", "engine_differs"};
 
-    if (renderer_info(renderer)->none) {
+    if (!renderer_info(renderer)->compute) {
         return true;
     }
     return compare_stages(renderer, example, desc, rounds, RENDER_FRAGMENT, fragment, row, err) &&

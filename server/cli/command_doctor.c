@@ -88,16 +88,18 @@ static int check_drawing(const struct options *options)
     if (!renderer) {
         say(BAD, "drawing", "%s%s%s", err.place, *err.place ? ": " : "", err.message);
         return say(BAD, "drawing",
-                   "a device is used from OpenGL 4.3 on, through EGL; --device auto draws without "
+                   "a device is used from OpenGL 3.3 on, through EGL; --device auto draws without "
                    "one, by the engine");
     }
     const struct renderer_info *info = renderer_info(renderer);
     if (info->none) {
         say(GOOD, "drawing",
-            "by the engine, without a graphics device; a GPU is used from OpenGL 4.3 on");
+            "by the engine, without a graphics device; a GPU is used from OpenGL 3.3 on");
     } else {
         say(GOOD, "drawing", "%s, OpenGL %s, %s", info->name, info->version, info->device);
-        say(GOOD, "stage", "%s", render_stage_names[info->stage]);
+        say(GOOD, "stage", "%s; the device has %s", render_stage_names[info->stage],
+            info->compute ? "compute and fragment shaders"
+                          : "fragment shaders alone: OpenGL below 4.3");
     }
     if (info->software) {
         explain_software();

@@ -164,7 +164,7 @@ static const struct option_row table[OPTION_COUNT] = {
                "a part of that; `strict` does not; `off` is for drivers that need more."},
     [OPTION_DEVICE] = {"device", 0, "KIND", OPTION_CHOICE, .choice = device_choice,
         .fallback = "auto", .commands = DRAWING, .stored = true,
-        .doc = "What draws. `auto` prefers a GPU, which is used from OpenGL 4.3 on; below that, "
+        .doc = "What draws. `auto` prefers a GPU, which is used from OpenGL 3.3 on; below that, "
                "and where none can be opened, the engine draws; `gpu` fails where there is none; "
                "`none` opens no device: the engine draws."},
     [OPTION_DEVICE_INDEX] = {"device-index", 0, "N", OPTION_INT, .fallback = "-1",
@@ -173,9 +173,10 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_STAGE] = {"stage", 0, "WORD", OPTION_CHOICE, .choice = stage_choice,
         .fallback = "auto", .commands = DRAWING, .stored = true,
         .doc = "What computes pictures: `compute` or `fragment`, shaders of the device of that "
-               "kind; `engine`, vectors of the processors; `auto` takes the faster shaders of a "
-               "GPU, tried once and kept in --cache, else the engine. Scenes that are too large "
-               "for compilers of shaders are drawn by the engine in any case."},
+               "kind, from OpenGL 4.3 or 3.3 on; `engine`, vectors of the processors; `auto` takes "
+               "the faster shaders of a GPU, tried once and kept in --cache, else the engine. "
+               "Scenes that are too large for compilers of shaders are drawn by the engine in any "
+               "case."},
     [OPTION_CACHE] = {"cache", 0, "DIR", OPTION_PATH, .base = BASE_CACHE, .fallback = "fieldcast",
         .commands = DRAWING, .stored = true,
         .doc = "Where compiled shaders are kept, and which stage is the faster one."},

@@ -455,6 +455,7 @@ test('a GPU that is asked for and not there is an error', () => {
 test('doctor says what fails', async () => {
     const good = succeed(['doctor', '--port', '0', '--data', path.join(folder, 'data')]);
     assert.match(good.out, /^ok {4}drawing .*OpenGL 4\.\d/m);
+    assert.match(good.out, /^ok {4}stage .*; the device has compute and fragment shaders$/m);
     assert.match(good.out, /^ok {4}data .*will be made/m);
     assert.ok(!fs.existsSync(path.join(folder, 'data')));
 
@@ -469,6 +470,22 @@ test('doctor says what fails', async () => {
     const blocked = run(['doctor', '--port', '0', '--data', path.join(write('file', ''), 'data')]);
     assert.equal(blocked.status, 1);
     assert.match(blocked.out, /^FAIL {2}data /m);
+});
+
+const OLDER = { MESA_GL_VERSION_OVERRIDE: '3.3', MESA_GLSL_VERSION_OVERRIDE: '330' };
+
+test('a device of OpenGL 3.3 draws by fragment shaders, if these are asked for', () => {
+    const doctor = succeed(['doctor', '--port', '0', '--device', 'software'], { env: OLDER }).out;
+    assert.match(doctor, /^ {6}device \d .*\(without compute shaders\): works/m);
+    assert.match(doctor, /^ok {4}drawing .*OpenGL 3\.3/m);
+    assert.match(doctor, /^ok {4}stage +engine; the device has fragment shaders alone/m);
+    const args = ['render', 'example:first-steps', '-o', '-', '--format', 'png', '--device', 'software', ...SMALL];
+    const drawn = (stage, env = {}) => succeed([...args, '--stage', stage], { binary: true, env }).out;
+    assert.ok(drawn('fragment', OLDER).equals(drawn('fragment')));
+    assert.ok(drawn('auto', OLDER).equals(drawn('engine')));
+    const refused = run([...args, '--stage', 'compute'], { env: OLDER });
+    assert.equal(refused.status, 1);
+    assert.match(refused.err, /compute shaders need OpenGL 4\.3; .* has 3\.3/);
 });
 
 test('bench prints JSON of drawing, compiling, encoding and storing', () => {
@@ -583,10 +600,10 @@ test('without a graphics device the engine draws, unless one is asked for', () =
 test('where OpenGL is too old the engine draws, and the reason is told whole', () => {
     const args = ['render', 'example:first-steps', '-o', '-', '--format', 'png', ...SMALL];
     const drawn = succeed([...args, '--device', 'none'], { binary: true }).out;
-    const env = { MESA_GL_VERSION_OVERRIDE: '3.3', MESA_GLSL_VERSION_OVERRIDE: '330' };
+    const env = { MESA_GL_VERSION_OVERRIDE: '3.2', MESA_GLSL_VERSION_OVERRIDE: '150' };
     const old = succeed(args, { binary: true, env });
     assert.ok(old.out.equals(drawn));
-    assert.match(old.err, /no device.*: no OpenGL 4\.3 core context \(\w+\), which fieldcast needs\n/);
+    assert.match(old.err, /no device.*: no OpenGL 3\.3 core context \(\w+\), which fieldcast needs\n/);
     assert.equal(run([...args, '--stage', 'fragment'], { env }).status, 1);
 });
 

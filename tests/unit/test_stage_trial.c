@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "renderer/renderer_internal.h"
 #include "renderer/stage_trial.h"
 #include "tests/support/text_file.h"
 
@@ -102,6 +103,18 @@ static void what_is_not_of_this_device_is_not(void **state)
     assert_int_equal(trials, 2);
 }
 
+/* Fragment shaders are on a GPU alone. */
+static void without_compute_shaders(void **state)
+{
+    const struct renderer_info gpu = {.compute = false}, newer_gpu = {.compute = true},
+                               software = {.software = true, .compute = false};
+
+    (void)state;
+    assert_int_equal(renderer_best_stage(&gpu), RENDER_FRAGMENT);
+    assert_int_equal(renderer_best_stage(&newer_gpu), RENDER_COMPUTE);
+    assert_int_equal(renderer_best_stage(&software), RENDER_ENGINE);
+}
+
 static int start(void **state)
 {
     struct renderer_params params = {
@@ -135,6 +148,7 @@ int main(void)
         cmocka_unit_test(compute_is_kept_while_it_goes_on),
         cmocka_unit_test(what_is_kept_is_believed),
         cmocka_unit_test(what_is_not_of_this_device_is_not),
+        cmocka_unit_test(without_compute_shaders),
     };
 
     return cmocka_run_group_tests_name("stage trial", tests, start, end);
