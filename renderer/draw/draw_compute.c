@@ -46,6 +46,7 @@ static void keep_rounds(struct draw *draw, struct draw_picture *picture, struct 
 /* The tile's sums: from the targets, or back into them. */
 static void keep(const struct wavefront *wavefront, const struct draw_picture *picture, bool back)
 {
+    /* What shaders have written is copied by a framebuffer. */
     wavefront->gl->MemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     draw_gl_copy_kept(wavefront->gl, picture, wavefront->slot->tile, wavefront->targets->pixels,
                       wavefront->targets->counted, back);
