@@ -102,6 +102,30 @@ static bool open_device(struct renderer *renderer, struct error *err)
     return true;
 }
 
+/* Before the process is confined, where it is going to compile. Where nothing is asked for, the
+ * engine draws instead of shaders that a driver refuses. */
+static bool prepare(struct renderer *renderer, struct error *err)
+{
+    const struct renderer_params *params = &renderer->params;
+    const enum shader_kind kind =
+        renderer->info.stage == RENDER_FRAGMENT ? SHADER_FRAGMENT : SHADER_COMPUTE;
+    struct error why = {0};
+
+    if (renderer->info.stage == RENDER_ENGINE || (draw_prepare(renderer->draw, kind, &why) &&
+                                                  program_cache_start(renderer->programs, &why))) {
+        return true;
+    }
+    if (params->stage != RENDER_AUTO || params->device.kind != DEVICE_AUTO) {
+        if (err) {
+            *err = why;
+        }
+        return false;
+    }
+    renderer_log(renderer, "the device refuses shaders, so the engine draws: %s", why.message);
+    renderer->best = renderer->info.stage = RENDER_ENGINE;
+    return true;
+}
+
 struct renderer *renderer_create(const struct renderer_params *params, struct error *err)
 {
     struct renderer *renderer = memory_alloc(1, sizeof *renderer);
@@ -120,12 +144,7 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     renderer->pictures = pictures_create();
     renderer->programs =
         program_cache_create(&renderer->egl, &renderer->gl, &renderer->sink, params->code_ms);
-    /* Before the process is confined, where it is going to compile. */
-    if (renderer->info.stage != RENDER_ENGINE &&
-        (!draw_prepare(renderer->draw,
-                       renderer->info.stage == RENDER_FRAGMENT ? SHADER_FRAGMENT : SHADER_COMPUTE,
-                       err) ||
-         !program_cache_start(renderer->programs, err))) {
+    if (!prepare(renderer, err)) {
         goto fail;
     }
     if (params->stage == RENDER_AUTO && renderer->best == RENDER_COMPUTE) {
