@@ -271,9 +271,11 @@ static bool check_text(const struct param *param, const cJSON *json, const char 
     const size_t length = strlen(text);
     if (param->type == PARAM_CODE || param->type == PARAM_EQUATION) {
         const size_t most = param_text_bytes(param->type);
-        return length > most ? error_set(err, ERROR_LIMIT, place,
-                                         "%zu bytes are above the maximum %zu", length, most)
-                             : check_characters(text, "\t\n", place, err);
+        return length > most
+                   ? error_set(err, ERROR_LIMIT, place, "%zu bytes are above the maximum %zu (%s)",
+                               length, most,
+                               param->type == PARAM_CODE ? "code_bytes" : "equation_bytes")
+                   : check_characters(text, "\t\n", place, err);
     }
     if (param->type == PARAM_TEXT) {
         return length > LIMIT_NAME_BYTES

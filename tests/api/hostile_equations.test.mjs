@@ -45,7 +45,7 @@ const SURFACES = [
     ['squares of squares by definitions', chain('*'), '/x', /\(equation_nodes\), or 16384 with all definitions written out \(equation_weight\)/],
     ['sums of sums by definitions', chain('+'), '/x', /\(equation_weight\)/],
     ['a definition by itself', 'q := q+1; q', '/x', /"q" is no name/],
-    ['too much text', 's+'.repeat(8500) + 's', '/x', /17001 bytes; the limit is 16384 \(equation_bytes\)/],
+    ['too much text', 's+'.repeat(8500) + 's', '/x', /17001 bytes are above the maximum 16384 \(equation_bytes\)/],
     ['a Cyrillic letter', '\u0455*t', '/x', /found "\u0455"/],
     ['a space of no width', 's\u200b*t', '/x', /unexpected/],
     ['text from right to left', '\u202es*t', '/x', /expected a number/],

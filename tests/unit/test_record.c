@@ -357,7 +357,7 @@ static void limits_of_values(void **state)
     int index = record_type_find(&type, "code");
     assert_false(record_set(&record, index, text, "/code", &err));
     assert_int_equal(err.kind, ERROR_LIMIT);
-    assert_string_equal(err.message, "16385 bytes are above the maximum 16384");
+    assert_string_equal(err.message, "16385 bytes are above the maximum 16384 (code_bytes)");
     text->valuestring[LIMIT_CODE_BYTES] = '\0';
     assert_true(record_set(&record, index, text, "/code", &err));
     index = record_type_find(&type, "outline");
