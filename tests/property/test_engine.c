@@ -270,7 +270,6 @@ static size_t list_ways(struct way *out)
                                         {.threads = 5},
                                         {.threads = 5, .tile_side = 16},
                                         {.threads = 2, .tile_side = 24},
-                                        {.threads = 1, .pauses = true},
                                         {.threads = 2, .pauses = true}};
     size_t count = 0;
 
