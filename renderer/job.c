@@ -259,7 +259,7 @@ static bool draw_sample(struct job *job, const struct draw_scene *scene)
     struct draw *draw = job->renderer->draw;
 
     if (is_unfinished(job)) {
-        job->steps[(job->started - 1) % TILES_IN_FLIGHT]++;
+        job->steps[(job->started - 1) % TILES_IN_FLIGHT] += job_is_within_tile(job);
         return draw_tile_more(draw, &job->picture, scene, (job->started - 1) % TILES_IN_FLIGHT,
                               &job->error);
     }

@@ -150,7 +150,7 @@ void worker_on_judge(struct worker *w, const struct packet_judge *packet);
 void worker_drop_job(struct worker *w, struct worker_job **at);
 /* The picture that has the next turn; NULL: none can go on. */
 struct worker_job *worker_choose_job(struct worker *w);
-/* Draws one tile of it, or with NULL tells that nothing is drawn. */
+/* Draws a tile of it or some parts of one, or with NULL tells that nothing is drawn. */
 void worker_step(struct worker *w, struct worker_job *job);
 /* renderer_params.is_wanted: a packet or an encoded picture is there, or others wait for long. */
 bool worker_is_wanted(void *data);
