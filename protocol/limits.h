@@ -17,7 +17,7 @@
     X(JSON_VALUES, "json_values", 2000000, "values", "JSON values in one text")                    \
     X(NODES, "nodes", 100000, "nodes", "nodes of a scene")                                         \
     X(COMPILED_SHAPES, "compiled_shapes", 512, "shapes",                                           \
-      "visible shapes that shaders of a GPU draw; the engine draws scenes of more")                \
+      "visible shapes that shaders are compiled for; an interpreter draws scenes of more")         \
     X(NODE_DEPTH, "node_depth", 64, "levels", "nesting of nodes")                                  \
     X(CHILDREN, "children", 10000, "nodes", "children of one node")                                \
     X(LIGHTS, "lights", 16, "lights", "lights of a scene")                                         \
@@ -48,7 +48,7 @@
     X(CODE_DEPTH, "code_depth", 64, "levels", "nesting of code, and of its calls")                 \
     X(CODE_SIZE, "code_size", 4096, "operations", "code, with every call written out")             \
     X(COMPILED_CODE, "compiled_code", 16384, "operations",                                         \
-      "code of a scene, once for each visible shape and each shader, for the same")                \
+      "code in shaders, once for each visible shape and each shader; the engine draws more")       \
     X(CODE_TRIPS, "code_trips", 256, "iterations", "all loops of one call of code")                \
     X(CODE_WORK, "code_work", 65536, "operations", "one call of code, with its loops run through") \
     X(CODE_ARRAY, "code_array", 64, "elements", "one array in code")                               \

@@ -96,11 +96,12 @@ static void choose_width(struct job *job)
 static struct draw_scene scene_of(const struct job *job)
 {
     struct snapshot *snapshot = job->snapshot;
-    struct program *program = job->bridged ? NULL : snapshot_program(snapshot);
+    struct program *program = job->program;
 
     return (struct draw_scene){
         .program = program,
-        .params = program ? snapshot_params(job->renderer, snapshot) : NULL,
+        .params = program ? snapshot_params(job->renderer, snapshot, program) : NULL,
+        .tapes = program ? snapshot_tapes(job->renderer, snapshot, program) : 0,
         .environment = snapshot->environment,
         .values = snapshot->geometry.field->params,
         .engine = program            ? NULL
@@ -121,8 +122,8 @@ static enum job_state begin(struct job *job)
     struct frame_uniforms block = snapshot->frame;
     struct render_settings settings;
 
-    job->bridged = may_begin_bridged(job);
-    switch (job->bridged ? PROGRAM_READY : snapshot_state(snapshot)) {
+    const bool bridged = may_begin_bridged(job);
+    switch (bridged ? PROGRAM_READY : snapshot_state(snapshot)) {
     case PROGRAM_PENDING:
         return job->state;
     case PROGRAM_FAILED:
@@ -131,6 +132,7 @@ static enum job_state begin(struct job *job)
     case PROGRAM_READY:
         break;
     }
+    job->program = bridged ? NULL : snapshot_program(snapshot);
     const struct draw_scene scene = scene_of(job);
     frame_uniforms_set_camera(&block, &job->camera, job->width, job->height);
     render_settings_make(&settings, &block, &snapshot->render, &job->request, &snapshot->extent);
@@ -365,6 +367,19 @@ static bool rows_are_taken(const struct job *job)
     return true;
 }
 
+/* From the pictures of moving views alone, so that like is compared with like. */
+static void learn_program(const struct job *job)
+{
+    uint64_t us = 0;
+
+    for (int i = FRAME_MARCH; i <= FRAME_RESOLVE; i++) {
+        us += job->times.us[i];
+    }
+    if (job->program && job->level == QUALITY_INTERACTIVE) {
+        snapshot_learn(job->snapshot, job->program, us, job->region.width * job->region.height);
+    }
+}
+
 static enum job_state after_rows(struct job *job)
 {
     if (!rows_are_taken(job)) {
@@ -379,6 +394,7 @@ static enum job_state after_rows(struct job *job)
         return job->state = JOB_ROUND;
     }
     job->renderer->counters.pictures++;
+    learn_program(job);
     return job->state = JOB_DONE;
 }
 

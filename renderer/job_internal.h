@@ -34,12 +34,12 @@ struct job {
     enum quality_level level;
     struct pace *pace;
     bool careful;
-    bool exact;             /* the device's pixels are wanted, where it draws the scene */
-    bool bridged;           /* the engine draws it, since the program was not there when it began */
-    int64_t limit_us;       /* that a sample of the smallest tile may take of the processors */
-    struct row row;         /* that is being started */
-    int started, collected; /* tiles */
-    struct watch sample;    /* what the one that is being drawn has taken so far */
+    bool exact;              /* the device's pixels are wanted, where it draws the scene */
+    struct program *program; /* that draws it, since it was there when it began; NULL: the engine */
+    int64_t limit_us;        /* that a sample of the smallest tile may take of the processors */
+    struct row row;          /* that is being started */
+    int started, collected;  /* tiles */
+    struct watch sample;     /* what the one that is being drawn has taken so far */
     int steps[TILES_IN_FLIGHT]; /* samples drawn of the tile in each slot */
     int rows_height;            /* of the row of tiles collected last */
     bool begun;                 /* `picture` is valid */

@@ -41,6 +41,13 @@ static void read_info(struct renderer *renderer)
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &info->max_texture);
 }
 
+const char *const render_program_names[RENDER_PROGRAMS] = {
+    [PROGRAMS_AUTO] = "auto",
+    [PROGRAMS_COMPILED] = "compiled",
+    [PROGRAMS_INTERPRETED] = "interpreted",
+    [PROGRAMS_EITHER] = "either",
+};
+
 const char *const render_stage_names[RENDER_STAGES] = {
     [RENDER_AUTO] = "auto",
     [RENDER_COMPUTE] = "compute",
@@ -138,6 +145,7 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     }
     renderer->best = renderer_best_stage(&renderer->info);
     renderer_use_stage(renderer, params->stage);
+    renderer_use_programs(renderer, params->programs);
     renderer->draw = draw_create(&renderer->gl, renderer->info.software, params->tile_side);
     renderer_share(renderer, false);
     renderer->environments = environments_create(&renderer->gl);
@@ -174,6 +182,13 @@ void renderer_destroy(struct renderer *renderer)
     egl_finish(&renderer->egl);
     free(renderer->verdicts);
     free(renderer);
+}
+
+void renderer_use_programs(struct renderer *renderer, enum render_programs programs)
+{
+    renderer->programs_wanted = programs != PROGRAMS_AUTO ? programs
+                                : renderer->info.software ? PROGRAMS_COMPILED
+                                                          : PROGRAMS_EITHER;
 }
 
 void renderer_use_stage(struct renderer *renderer, enum render_stage stage)

@@ -35,9 +35,20 @@ enum render_stage {
 };
 extern const char *const render_stage_names[RENDER_STAGES];
 
+/* By which programs shaders draw a field. */
+enum render_programs {
+    PROGRAMS_AUTO,        /* either on a GPU, else compiled */
+    PROGRAMS_COMPILED,    /* of the field alone: straight-line code */
+    PROGRAMS_INTERPRETED, /* of its vocabulary: code that reads the field's operations */
+    PROGRAMS_EITHER,      /* an interpreter until a compiled one is there, then the faster one */
+    RENDER_PROGRAMS,
+};
+extern const char *const render_program_names[RENDER_PROGRAMS];
+
 struct renderer_params {
     struct device_params device;
     enum render_stage stage;
+    enum render_programs programs;
     int lanes;            /* of the engine's vectors; 0: the most */
     int threads;          /* of the engine; 0: one for each processor */
     int tile_side;        /* pixels, a multiple of 8; 0: what is good for the device */
@@ -75,6 +86,8 @@ void renderer_destroy(struct renderer *renderer);
  * of a GPU that was made for RENDER_COMPUTE has no other; one without a device has the engine.
  * RENDER_COMPUTE needs `compute`. */
 void renderer_use_stage(struct renderer *renderer, enum render_stage stage);
+/* The same of programs; PROGRAMS_AUTO is what is good for the device. */
+void renderer_use_programs(struct renderer *renderer, enum render_programs programs);
 const struct renderer_info *renderer_info(const struct renderer *renderer);
 /* Tries every device as renderer_create would; writes at most `max` rows, returns how many. */
 size_t renderer_devices(const struct device_params *params, struct device_report *out, size_t max);
@@ -128,9 +141,10 @@ bool renderer_check(const struct scene *scene, struct error *out_warning, struct
 
 /* Names of the passes whose GLSL depends on the scene, "march" first; NULL: there are no more. */
 const char *renderer_pass_name(size_t pass);
-/* The GLSL of one of them for a scene, as a GPU gets it. Any thread, no renderer. Caller frees;
- * NULL and `err` where the scene cannot be drawn. */
-char *renderer_shader(const struct scene *scene, size_t pass, struct error *err);
+/* The GLSL of one of them for a scene, as a GPU gets it, compiled or interpreted. Any thread, no
+ * renderer. Caller frees; NULL and `err` where the scene cannot be drawn. */
+char *renderer_shader(const struct scene *scene, size_t pass, enum render_programs programs,
+                      struct error *err);
 
 /* A picture of a scene as one fragment shader of WebGL 2 (GLSL ES 3.00), which needs no more than
  * its text: uniforms `resolution` and `orbit` (glsl/webgl_pass.glsl). `level`: enum quality_level,

@@ -15,7 +15,8 @@
 struct renderer {
     struct renderer_params params;
     struct renderer_info info;
-    enum render_stage best; /* what RENDER_AUTO is here */
+    enum render_stage best;               /* what RENDER_AUTO is here */
+    enum render_programs programs_wanted; /* never PROGRAMS_AUTO */
     struct gl_sink sink;
     struct egl egl;
     struct gl gl;

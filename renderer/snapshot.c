@@ -6,115 +6,7 @@
 #include <stdlib.h>
 
 #include "protocol/memory.h"
-#include "renderer/field/shader.h"
-
-enum { PARAM_BUFFER_MIN = 64 };
-
-/* The size of the number buffer as programs declare it: a power of two, so that a material more or
- * less does not ask for another program. */
-static size_t number_capacity(const struct field *field)
-{
-    size_t capacity = PARAM_BUFFER_MIN;
-
-    while (capacity < field->vec4_count) {
-        capacity *= 2;
-    }
-    return capacity;
-}
-
-/* Because of what it did to another process. */
-static bool refuse(const struct field *field, const struct scene *scene,
-                   const struct renderer_verdict *verdict, struct error *err)
-{
-    const bool code = field->user_code != NULL;
-    char place[32 + LIMIT_ID_BYTES];
-
-    snprintf(place, sizeof place, "/nodes/%s", scene->root->id);
-    if (verdict->refused == ERROR_TOO_SLOW) {
-        return error_set_slow(err, code ? field->user_code->place : place,
-                              code ? "compiling this code takes" : "compiling this scene takes",
-                              verdict->measured_ms, verdict->limit_ms);
-    }
-    return error_set(err, verdict->refused, code ? field->user_code->place : place,
-                     "compiling this %s ended the render process", code ? "code" : "scene");
-}
-
-/* `map` and `surface`: texts of the field. */
-static struct program_source source_of(const struct field *field, const struct scene *scene,
-                                       bool fragment, const char *map, const char *surface)
-{
-    return (struct program_source){
-        .map_text = map,
-        .surface_text = surface,
-        .number_count = number_capacity(field),
-        .user_shaders = field->shader_count > 0,
-        .user_code = field->user_code != NULL,
-        .volumes = scene->volumes.count > 0,
-        .fragment = fragment,
-        .shape_count = field->shape_count,
-        .code_size = field->code_size,
-        .map_count = field->material_base,
-    };
-}
-
-const char *renderer_pass_name(size_t pass)
-{
-    return pass < PROGRAM_STAGES ? program_stage_names[pass] : NULL;
-}
-
-char *renderer_shader(const struct scene *scene, size_t pass, struct error *err)
-{
-    struct field *field = field_compile(scene, err);
-
-    if (!field) {
-        return NULL;
-    }
-    char *map = shader_map(field), *surface = shader_surface(field);
-    const struct program_source source =
-        source_of(field, scene, pass >= STAGE_STARTS, map, surface);
-    char *text = program_text(&source, (enum program_stage)pass, err);
-    free(map);
-    free(surface);
-    field_unref(field);
-    return text;
-}
-
-/* Of the program that the device has for it. */
-static uint64_t structure_of(const struct field *field, const struct scene *scene, bool fragment)
-{
-    const size_t kind = (scene->volumes.count > 0 ? 1 : 0) + (fragment ? 2 : 0);
-
-    return field->structure_hash ^ ((number_capacity(field) + kind) * UINT64_C(0x9e3779b97f4a7c15));
-}
-
-/* Code that is new is tried out first: what is no number in C is none on the device. NULL and `err`
- * where that fails. */
-static struct program *get_program(struct renderer *renderer, struct field *field,
-                                   const struct scene *scene, uint64_t key,
-                                   struct error *out_warning, struct error *err)
-{
-    const struct renderer_verdict *verdict = renderer_find_verdict(renderer, key, "");
-    struct program *program = program_cache_find(renderer->programs, key);
-    char *map, *surface;
-
-    if (program) {
-        renderer->counters.cache_hits++;
-        return program;
-    }
-    if (!field_try(field, out_warning, err)) {
-        return NULL;
-    }
-    map = shader_map(field);
-    surface = shader_surface(field);
-    struct program_source source =
-        source_of(field, scene, renderer->info.stage == RENDER_FRAGMENT, map, surface);
-    source.structure_hash = key;
-    source.patience = verdict ? verdict->times : 1;
-    program = program_cache_add(renderer->programs, &source);
-    free(map);
-    free(surface);
-    return program;
-}
+#include "snapshot_programs.h"
 
 /* How far the document's camera is from what it looks at: the size of what is of interest. */
 static double scene_scale(const struct record *camera)
@@ -285,54 +177,6 @@ void snapshots_settle(struct renderer *renderer)
     }
 }
 
-/* The engine draws a field until its program is compiled, so that an edit is seen at once; and for
- * good where the driver refuses the program. */
-static void bridge(struct renderer *renderer, struct snapshot *snapshot,
-                   const struct snapshot *before)
-{
-    if (program_state(snapshot->program) != PROGRAM_READY) {
-        snapshot->bridge =
-            before && before->bridge
-                ? engine_program_ref(before->bridge)
-                : engine_program_create(snapshot->geometry.field, renderer->params.lanes,
-                                        renderer->params.threads);
-    }
-}
-
-/* A program for the device or for the engine, which draws what is too much for the device's
- * compiler, too. What is made of instructions alone is shared with a snapshot of the same ones
- * (`before`; NULL: none). */
-static bool find_back_end(struct renderer *renderer, struct snapshot *snapshot,
-                          const struct scene *scene, const struct snapshot *before,
-                          uint64_t *out_refused, struct error *err)
-{
-    const struct renderer_verdict *verdict =
-        renderer_find_verdict(renderer, snapshot->structure_hash, "");
-    const bool compiles =
-        renderer->info.stage != RENDER_ENGINE && field_can_be_compiled(snapshot->geometry.field);
-
-    if (verdict && verdict->refused != ERROR_NONE) {
-        *out_refused = snapshot->structure_hash;
-        refuse(snapshot->geometry.field, scene, verdict, err);
-        return false;
-    }
-    if (before && before->engine) {
-        snapshot->engine = engine_program_ref(before->engine);
-        snapshot->trial = trial_follow(&renderer->trials, before->trial, snapshot->geometry.field);
-    } else if (compiles) {
-        snapshot->program = get_program(renderer, snapshot->geometry.field, scene,
-                                        snapshot->structure_hash, &snapshot->warning.error, err);
-        if (snapshot->program) {
-            bridge(renderer, snapshot, before);
-        }
-    } else {
-        snapshot->engine = engine_program_create(snapshot->geometry.field, renderer->params.lanes,
-                                                 renderer->params.threads);
-        snapshot->trial = trial_begin(&renderer->trials, snapshot->geometry.field);
-    }
-    return snapshot->engine || snapshot->program;
-}
-
 struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
                                  uint64_t revision, const struct snapshot *before,
                                  struct upload *upload, uint64_t *out_refused, struct error *err)
@@ -345,8 +189,8 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
     snapshot->revision = revision;
     snapshot->upload = upload;
     snapshot->geometry = (struct geometry){.field = field};
-    snapshot->structure_hash = structure_of(field, scene, renderer->info.stage == RENDER_FRAGMENT);
-    if (!find_back_end(renderer, snapshot, scene, before, out_refused, err)) {
+    snapshot->structure_hash = snapshot_structure(renderer, field, scene);
+    if (!snapshot_find_back_end(renderer, snapshot, scene, before, out_refused, err)) {
         snapshot_unref(renderer, snapshot);
         return NULL;
     }
@@ -368,32 +212,14 @@ const struct error *snapshot_error(const struct snapshot *snapshot)
     return snapshot->error.kind != ERROR_NONE ? &snapshot->error : trial_error(snapshot->trial);
 }
 
-static bool is_compiling(const struct snapshot *snapshot)
-{
-    return snapshot->program && program_state(snapshot->program) == PROGRAM_PENDING;
-}
-
 enum program_state snapshot_state(const struct snapshot *snapshot)
 {
     const bool waits =
-        is_compiling(snapshot) || snapshot->picture || !trial_is_over(snapshot->trial);
+        snapshot_is_compiling(snapshot) || snapshot->picture || !trial_is_over(snapshot->trial);
 
     return snapshot_error(snapshot)->kind != ERROR_NONE ? PROGRAM_FAILED
            : waits                                      ? PROGRAM_PENDING
                                                         : PROGRAM_READY;
-}
-
-struct program *snapshot_program(const struct snapshot *snapshot)
-{
-    return snapshot->program && program_state(snapshot->program) == PROGRAM_READY
-               ? snapshot->program
-               : NULL;
-}
-
-bool snapshot_is_bridged(const struct snapshot *snapshot)
-{
-    return snapshot->bridge && !snapshot->picture && snapshot->error.kind == ERROR_NONE &&
-           is_compiling(snapshot);
 }
 
 struct warning snapshot_warning(const struct snapshot *snapshot)
@@ -416,21 +242,10 @@ void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
         return;
     }
     leave_waiting(renderer, snapshot);
-    trial_unref(&renderer->trials, snapshot->trial);
-    engine_program_destroy(snapshot->engine);
-    engine_program_destroy(snapshot->bridge);
-    if (snapshot->program) {
-        program_unref(renderer->programs, snapshot->program);
-    }
+    snapshot_leave_back_end(renderer, snapshot);
     upload_unref(snapshot->upload, &renderer->gl);
     environment_unref(renderer->environments, snapshot->environment);
     record_finish(&snapshot->camera);
     record_finish(&snapshot->render);
     free(snapshot);
-}
-
-const struct param_buffer *snapshot_params(struct renderer *renderer, struct snapshot *snapshot)
-{
-    return upload_params(snapshot->upload, &renderer->gl, renderer->info.software,
-                         number_capacity(snapshot->geometry.field));
 }

@@ -15,8 +15,10 @@ struct snapshot {
     uint64_t revision;
     struct upload *upload;
     struct geometry geometry;    /* with the field of `upload` */
-    uint64_t structure_hash;     /* of the program that the device has, or would have */
-    struct program *program;     /* NULL: the engine draws it */
+    uint64_t structure_hash;     /* of the program that the device has, or would have; of the
+                                  * interpreter where it has no other */
+    struct program *program;     /* compiled for this field alone; NULL: none is wanted */
+    struct program *interpreter; /* of its vocabulary; the same */
     struct record camera;        /* the document's */
     struct record render;        /* the document's */
     struct frame_uniforms frame; /* without camera and level */
@@ -26,8 +28,9 @@ struct snapshot {
     uint32_t environment_us;         /* time that it took */
     bool fewer_steps;                /* than the scene asks for: the driver's bound on loops */
     struct engine_program *engine;   /* NULL: the device draws it */
-    struct engine_program *bridge;   /* what draws while `program` is compiled, and for good where
-                                      * the driver refuses it; NULL: nothing */
+    struct engine_program *tapes;    /* of which the interpreter's are made; NULL: there is none */
+    struct engine_program *bridge;   /* what draws while programs are compiled, and for good where
+                                      * the driver refuses them; NULL: nothing */
     struct trial *trial;             /* of users' code that the engine draws; NULL: has none */
     struct warning warning; /* of users' code, when the program was new, or of the environment's
                              picture; ERROR_NONE: nothing */
@@ -55,8 +58,12 @@ struct snapshot *snapshot_ref(struct snapshot *snapshot);
  * that the driver refuses is no failure: the engine draws. */
 enum program_state snapshot_state(const struct snapshot *snapshot);
 const struct error *snapshot_error(const struct snapshot *snapshot); /* PROGRAM_FAILED: why */
-/* What the device draws it by, once it is compiled; NULL: the engine draws it. */
+/* What the device draws it by, once it is compiled: the faster one, as far as that is known; NULL:
+ * the engine draws it. */
 struct program *snapshot_program(const struct snapshot *snapshot);
+/* Learns how long a picture took that `program` has drawn. */
+void snapshot_learn(struct snapshot *snapshot, const struct program *program, uint64_t us,
+                    int pixels);
 /* Whether its program is all that it waits for, and the engine can draw it until then. */
 bool snapshot_is_bridged(const struct snapshot *snapshot);
 /* Of its code or its picture; ERROR_NONE: nothing, as far as is known. */
@@ -66,7 +73,11 @@ void snapshots_settle(struct renderer *renderer);
 /* The structure of its program where there is code of users in it; else 0. */
 uint64_t snapshot_structure_with_code(const struct snapshot *snapshot);
 void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot); /* NULL: nothing */
-/* Uploads what is not yet on the device. */
-const struct param_buffer *snapshot_params(struct renderer *renderer, struct snapshot *snapshot);
+/* Uploads what a program reads and the device does not have yet. */
+const struct param_buffer *snapshot_params(struct renderer *renderer, struct snapshot *snapshot,
+                                           const struct program *program);
+/* The same of tapes; 0: the program reads none. */
+GLuint snapshot_tapes(struct renderer *renderer, struct snapshot *snapshot,
+                      const struct program *program);
 
 #endif

@@ -47,6 +47,7 @@ struct tile {
 struct draw_scene {
     struct program *program;
     const struct param_buffer *params;
+    GLuint tapes; /* 0: the program has none */
     struct environment *environment;
     const float *values;           /* the numbers in memory */
     struct engine_program *engine; /* NULL: it cannot draw this */

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "renderer/gl/tape_texture.h"
 #include "tile_clock.h"
 
 enum { FENCE_WAIT_MS = 60000 }; /* beyond it the device is taken for lost */
@@ -140,6 +141,9 @@ void draw_gl_bind(const struct draw *draw, const struct draw_picture *picture,
 
     gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, picture->frame);
     param_buffer_bind(scene->params, gl);
+    if (scene->tapes) {
+        tape_texture_bind(scene->tapes, gl);
+    }
     environment_bind(scene->environment, gl);
 }
 

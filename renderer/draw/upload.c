@@ -5,6 +5,8 @@
 #include <stdlib.h>
 
 #include "protocol/memory.h"
+#include "renderer/engine/tapes.h"
+#include "renderer/gl/tape_texture.h"
 
 struct upload *upload_create(struct field *field)
 {
@@ -21,20 +23,30 @@ struct upload *upload_ref(struct upload *upload)
     return upload;
 }
 
+static void drop_tapes(struct upload *upload, const struct gl *gl)
+{
+    if (upload->tapes) {
+        gl->DeleteTextures(1, &upload->tapes);
+    }
+    upload->tapes = 0;
+    upload->old_tapes = false;
+}
+
 void upload_unref(struct upload *upload, const struct gl *gl)
 {
     if (!upload || --upload->references > 0) {
         return;
     }
-    param_buffer_finish(&upload->params, gl);
+    for (int i = 0; i < 2; i++) {
+        param_buffer_finish(&upload->copies[i].params, gl);
+    }
+    drop_tapes(upload, gl);
     field_unref(upload->field);
     free(upload);
 }
 
-static void add_stale(struct upload *upload, const struct field_span *changed)
+static void add_stale(struct field_span *stale, const struct field_span *changed)
 {
-    struct field_span *stale = &upload->stale;
-
     if (stale->first == stale->end) {
         *stale = *changed;
         return;
@@ -59,26 +71,46 @@ struct upload *upload_patch(struct upload *from, struct upload *spare, const str
     }
     if (spare && field == spare->field) {
         field_unref(field);
-        add_stale(spare, &changed);
+        add_stale(&spare->copies[0].stale, &changed);
+        add_stale(&spare->copies[1].stale, &changed);
+        spare->old_tapes = true;
         return upload_ref(spare);
     }
     return upload_create(field);
 }
 
-const struct param_buffer *upload_params(struct upload *upload, const struct gl *gl, bool software,
-                                         size_t capacity)
+const struct param_buffer *upload_params(struct upload *upload, const struct gl *gl,
+                                         bool in_texture, size_t capacity)
 {
     const struct field *field = upload->field;
-    const struct field_span *stale = &upload->stale;
+    struct upload_copy *copy = &upload->copies[in_texture];
+    struct param_buffer *params = &copy->params;
+    const struct field_span *stale = &copy->stale;
 
-    if (upload->params.buffer + upload->params.texture == 0) {
-        param_buffer_init(&upload->params, gl, software, field->params, field->vec4_count,
-                          capacity);
+    if (params->buffer + params->texture == 0) {
+        param_buffer_init(params, gl, in_texture, field->params, field->vec4_count, capacity);
     } else if (stale->first < stale->end) {
-        param_buffer_update(&upload->params, gl, field->params, stale->first, stale->end);
+        param_buffer_update(params, gl, field->params, stale->first, stale->end);
     }
-    upload->stale = (struct field_span){0, 0};
-    return &upload->params;
+    copy->stale = (struct field_span){0, 0};
+    return params;
+}
+
+GLuint upload_tapes(struct upload *upload, const struct gl *gl,
+                    const struct engine_program *program, const struct engine_extent *extent)
+{
+    if (upload->old_tapes) {
+        drop_tapes(upload, gl);
+    }
+    if (!upload->tapes) {
+        struct vocabulary vocabulary = vocabulary_of(upload->field);
+        struct engine_tapes tapes;
+        engine_tapes_make(program, upload->field->params, extent, &vocabulary, &tapes);
+        upload->tapes = tape_texture_create(gl, (const uint32_t(*)[4])tapes.texels, tapes.count);
+        engine_tapes_finish(&tapes);
+        vocabulary_finish(&vocabulary);
+    }
+    return upload->tapes;
 }
 
 struct upload *upload_pool_spare(const struct upload_pool *pool)

@@ -5,14 +5,19 @@
 #ifndef RENDERER_UPLOAD_H
 #define RENDERER_UPLOAD_H
 
+#include "renderer/engine/engine.h"
 #include "renderer/field/field_patch.h"
 #include "renderer/gl/param_buffer.h"
 
 struct upload {
     int references;
     struct field *field;
-    struct param_buffer params; /* none until they are asked for */
-    struct field_span stale;    /* numbers of the field that the device does not have yet */
+    struct upload_copy {
+        struct param_buffer params; /* none until they are asked for */
+        struct field_span stale;    /* numbers of the field that these are without yet */
+    } copies[2];                    /* in a buffer, in a texture */
+    GLuint tapes;                   /* for an interpreter; 0: none are made yet, */
+    bool old_tapes;                 /* or of other numbers */
 };
 
 /* Takes the reference of the field. */
@@ -23,9 +28,13 @@ void upload_unref(struct upload *upload, const struct gl *gl); /* NULL: nothing 
  * caller holds its only reference. */
 struct upload *upload_patch(struct upload *from, struct upload *spare, const struct scene *scene,
                             const cJSON *ops);
-/* Brings the numbers on the device up to date. `capacity`: vec4s that programs declare. */
-const struct param_buffer *upload_params(struct upload *upload, const struct gl *gl, bool software,
-                                         size_t capacity);
+/* Brings the numbers on the device up to date, in a texture or a buffer. `capacity`: vec4s that
+ * programs declare. */
+const struct param_buffer *upload_params(struct upload *upload, const struct gl *gl,
+                                         bool in_texture, size_t capacity);
+/* The tapes of the field, made of the program when they are first asked for. */
+GLuint upload_tapes(struct upload *upload, const struct gl *gl,
+                    const struct engine_program *program, const struct engine_extent *extent);
 
 /* The last patched uploads of a scene: the drawn one, the newest, and one to write into. */
 enum { UPLOADS_KEPT = 3 };

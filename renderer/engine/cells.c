@@ -17,11 +17,11 @@
 #define BOUND_NEAR 2           /* a cube is far from surfaces that are so many of its halves away */
 #define BOUND_TAPE 96          /* operations that take longer than more steps by a bound */
 #define VALUE_TAPE 12          /* of so many operations, what a tape gives is noted */
-#define GRID_BITS 24           /* of the root's side: as many as a float has */
-/* Where 0, 0, 0 is on the grid: a third of the way along each axis, and so a third or two thirds of
- * the way through each cube around it. In the middle of the grid, a scene would lie in eight cubes
- * of every size. */
-#define GRID_ORIGIN 0x555555
+/* Of the root's side: as many as a float has. Place 0, 0, 0 is a third of the way along each axis
+ * of the grid, and so a third or two thirds of the way through each cube around it. In the middle
+ * of the grid, a scene would lie in eight cubes of every size. */
+#define GRID_BITS TAPE_GRID_BITS
+#define GRID_ORIGIN TAPE_ORIGIN
 
 static struct cell *cell_add(struct cells *cells)
 {

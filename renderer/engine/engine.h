@@ -51,6 +51,13 @@ void engine_program_destroy(struct engine_program *program);
 uint64_t engine_distances(const struct engine_program *program, const float *params,
                           const float (*points)[3], size_t count, float half, float *out);
 
+/* Of a field that is to be explored. */
+struct engine_extent {
+    float reach; /* of rays */
+    float scale; /* of what is of interest */
+    float least; /* half of the smallest cubes */
+};
+
 enum { ENGINE_MARGIN = 4 };
 enum engine_smoothing { ENGINE_PLAIN, ENGINE_BLEND, ENGINE_ADAPTIVE, ENGINE_FULL };
 

@@ -40,7 +40,7 @@ struct operation {
 
 /* A tape is a list of indices of operations; with a bit set, FIELD_COMBINE takes its second operand
  * alone. */
-enum { TAPE_INDEX = 0x3fffffff, TAPE_MOVE = 0x40000000 };
+enum { TAPE_MOVE = 0x40000000, CUBE_CHILDREN = 8 };
 #define TAPE_NEGATE 0x80000000u
 
 /* A cube of space, and its tape: the operations that matter in it. */
@@ -189,6 +189,9 @@ struct engine_width {
     void (*hand_destroy)(struct hand *hand); /* NULL is nothing */
     uint64_t (*distances)(const struct engine_program *program, const float *params,
                           const float (*points)[3], size_t count, float half, float *out);
+    /* Makes cubes where surfaces are, before any ray asks: of a space (mask: field_mask). */
+    void (*explore)(const struct engine_program *program, const float *params,
+                    const struct engine_extent *extent, float mask, struct cells *out);
     /* Makes a level of one of the maps. All levels but the first are made of the first. */
     void (*make_map)(const struct frame_uniforms *frame, struct engine_map maps[ENGINE_MAPS],
                      int number, int level);

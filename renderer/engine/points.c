@@ -11,14 +11,15 @@ struct looker {
     struct cells spaces[ENGINE_SPACES];
 };
 
-static struct looker *looker_create(const struct engine_program *program, const float *params)
+static struct looker *looker_create(const struct engine_program *program, const float *params,
+                                    float reach)
 {
     struct looker *looker = aligned_room(sizeof *looker);
 
     memset(looker, 0, sizeof *looker);
     looker->scene =
         (struct scene_block){program->scene.material_base, program->scene.material_stride};
-    looker->frame.max_distance = POINTS_REACH;
+    looker->frame.max_distance = reach;
     struct lanes *c = &looker->lanes;
     c->program = program;
     c->frame = &looker->frame;
@@ -77,7 +78,7 @@ static uint64_t look(struct lanes *c, const vf *p, float half, vf *out)
 static uint64_t distances(const struct engine_program *program, const float *params,
                           const float (*points)[3], size_t count, float half, float *out)
 {
-    struct looker *looker = looker_create(program, params);
+    struct looker *looker = looker_create(program, params, POINTS_REACH);
     uint64_t ran = 0;
 
     for (size_t first = 0; first < count; first += LANES) {

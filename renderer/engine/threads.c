@@ -26,6 +26,7 @@ struct crew {
     pthread_mutex_t lock; /* of `taken` in the canvas's parts */
     atomic_uint_least64_t rays;
     atomic_bool paused;
+    struct expedition *expedition; /* explore.c */
     /* Renewing: */
     struct engine_program *program;
     struct cubes *cubes;

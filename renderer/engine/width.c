@@ -18,6 +18,8 @@
 #include "environment_texels.c"
 #include "threads.c"
 
+#include "explore.c"
+
 #define CALL_ROW(row, base, size, one, function)
 #define KERNEL_ROW(type, choices, kind, function)                                                  \
     {type, choices, KERNEL_##kind, (void (*)(void))function},
@@ -43,4 +45,5 @@ const struct engine_width NAME(LANES) = {LANES,
                                          renew,
                                          hand_destroy,
                                          distances,
+                                         explore,
                                          make_map};

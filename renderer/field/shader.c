@@ -532,6 +532,43 @@ bool shader_has_kernel(const struct node_type *type, enum shader_kernel kernel)
     }
 }
 
+void shader_code_kernel(FILE *out, const char *name, const struct field *field, uint32_t code)
+{
+    const struct field_instruction in = {.op = FIELD_SHAPE, .choices = code};
+    struct shader_writer w = {.out = out, .field = field};
+
+    fprintf(out, "float %s(vec3 p0)\n{\nfloat ", name);
+    write_shape(&w, &in);
+    fprintf(out, "return d0;\n}\n");
+}
+
+void shader_functions(FILE *out, const struct field *field)
+{
+    const struct shader_writer w = {.out = out, .field = field};
+
+    write_functions(&w);
+}
+
+void shader_ask(FILE *out, const struct field *field)
+{
+    const struct shader_writer w = {.out = out, .field = field};
+
+    if (field->shader_count == 0) {
+        return;
+    }
+    write_codes(&w, field->shaders, field->shader_count, "shade", FIRST_SHADER);
+    fputs("int ask_shader(int shader, int material, Shading at, out vec4 color, out CodeSurface s)"
+          "\n{\n",
+          out);
+    for (size_t i = 0; i < field->shader_count; i++) {
+        const bool whole = code_gives_surface(field->shaders[i].code);
+        fprintf(out, "if (shader == %zu) {\n%s = shade_%zu(at", i + 1, whole ? "s" : "color", i);
+        write_places(&w, &field->shaders[i], "P_ANY(material + ", FIELD_MATERIAL_VEC4S);
+        fprintf(out, ");\nreturn %d;\n}\n", whole ? 2 : 1);
+    }
+    fputs("return 0;\n}\n", out);
+}
+
 void shader_code_kernels(FILE *out)
 {
     const struct field none = {0};

@@ -36,6 +36,11 @@ bool shader_has_kernel(const struct node_type *type, enum shader_kernel kernel);
 /* `choices`: as of struct field_instruction. */
 void shader_kernel(FILE *out, const char *name, const struct node_type *type, uint32_t choices,
                    enum shader_kernel kernel);
+/* The same of a shape by one of the field's codes, which shader_functions writes. */
+void shader_code_kernel(FILE *out, const char *name, const struct field *field, uint32_t code);
+void shader_functions(FILE *out, const struct field *field);
+/* ask_shader() of glsl/mixing.glsl, with all shaders of the field; nothing where it has none. */
+void shader_ask(FILE *out, const struct field *field);
 /* The same of users' distance functions: kernel_code_point(vec3 p), where one is asked, and
  * kernel_code_shape(float d, vec3 p), the distance after its answer. */
 void shader_code_kernels(FILE *out);

@@ -18,7 +18,7 @@ bool param_buffer_in_texture(const struct gl *gl, bool software, size_t capacity
 
 static GLuint make_texture(const struct gl *gl, const float *values, size_t capacity)
 {
-    const GLsizei width = capacity < PARAM_BUFFER_ROW ? (GLsizei)capacity : PARAM_BUFFER_ROW;
+    const GLsizei width = capacity < PARAMS_ROW ? (GLsizei)capacity : PARAMS_ROW;
     const GLsizei height = (GLsizei)(capacity / (size_t)width);
 
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_PARAMS);
@@ -37,7 +37,7 @@ static GLuint make_buffer(const struct gl *gl, const float *values, size_t capac
     return buffer;
 }
 
-void param_buffer_init(struct param_buffer *out, const struct gl *gl, bool software,
+void param_buffer_init(struct param_buffer *out, const struct gl *gl, bool in_texture,
                        const float *values, size_t count, size_t capacity)
 {
     float *padded = memory_alloc(capacity, 16);
@@ -46,7 +46,7 @@ void param_buffer_init(struct param_buffer *out, const struct gl *gl, bool softw
         memcpy(padded, values, count * 16);
     }
     *out = (struct param_buffer){0};
-    if (param_buffer_in_texture(gl, software, capacity)) {
+    if (in_texture) {
         out->texture = make_texture(gl, padded, capacity);
     } else {
         out->buffer = make_buffer(gl, padded, capacity);
@@ -58,18 +58,17 @@ void param_buffer_init(struct param_buffer *out, const struct gl *gl, bool softw
 static void put_rows(const struct gl *gl, const float *values, size_t first, size_t width,
                      size_t height)
 {
-    gl->TexSubImage2D(GL_TEXTURE_2D, 0, (GLint)(first % PARAM_BUFFER_ROW),
-                      (GLint)(first / PARAM_BUFFER_ROW), (GLsizei)width, (GLsizei)height, GL_RGBA,
-                      GL_FLOAT, values + 4 * first);
+    gl->TexSubImage2D(GL_TEXTURE_2D, 0, (GLint)(first % PARAMS_ROW), (GLint)(first / PARAMS_ROW),
+                      (GLsizei)width, (GLsizei)height, GL_RGBA, GL_FLOAT, values + 4 * first);
 }
 
 /* What is left of a row, whole rows, and the beginning of one. */
 static void put_in_texture(const struct gl *gl, const float *values, size_t first, size_t end)
 {
     while (first < end) {
-        const size_t left = end - first, column = first % PARAM_BUFFER_ROW;
-        const size_t width = column + left > PARAM_BUFFER_ROW ? PARAM_BUFFER_ROW - column : left;
-        const size_t height = width == PARAM_BUFFER_ROW ? left / PARAM_BUFFER_ROW : 1;
+        const size_t left = end - first, column = first % PARAMS_ROW;
+        const size_t width = column + left > PARAMS_ROW ? PARAMS_ROW - column : left;
+        const size_t height = width == PARAMS_ROW ? left / PARAMS_ROW : 1;
 
         put_rows(gl, values, first, width, height);
         first += width * height;

@@ -7,8 +7,6 @@
 
 #include "gl.h"
 
-enum { PARAM_BUFFER_ROW = 256 }; /* vec4s in a row of the texture */
-
 struct param_buffer {
     GLuint buffer, texture; /* one of them, else 0 */
 };
@@ -20,7 +18,7 @@ struct param_buffer {
  * it, and llvmpipe compiles a program again for each state of its samplers. */
 bool param_buffer_in_texture(const struct gl *gl, bool software, size_t capacity);
 /* `count` vec4s, then zeros up to `capacity`, a power of two. */
-void param_buffer_init(struct param_buffer *out, const struct gl *gl, bool software,
+void param_buffer_init(struct param_buffer *out, const struct gl *gl, bool in_texture,
                        const float *values, size_t count, size_t capacity);
 /* The same of those from vec4 `first` to before `end` of `values`; the others stay. */
 void param_buffer_update(const struct param_buffer *params, const struct gl *gl,

@@ -169,6 +169,7 @@ struct program *program_cache_add(struct program_cache *cache, const struct prog
     program->user_code = source->user_code;
     program->volumes = source->volumes;
     program->fragment = source->fragment;
+    program->tapes = source->tapes;
     program->first = source->fragment ? STAGE_STARTS : STAGE_MARCH;
     program->stages = source->fragment  ? PROGRAM_STAGES - STAGE_STARTS
                       : source->volumes ? STAGE_COUNT
@@ -215,9 +216,24 @@ uint64_t program_structure_hash(const struct program *program)
     return program->structure_hash;
 }
 
+bool program_has_tapes(const struct program *program)
+{
+    return program->tapes;
+}
+
 bool program_is_fragment(const struct program *program)
 {
     return program->fragment;
+}
+
+void program_set_time(struct program *program, enum program_way way, struct program_time time)
+{
+    program->times[way] = time;
+}
+
+struct program_time program_time(const struct program *program, enum program_way way)
+{
+    return program->times[way];
 }
 
 bool program_has_user_code(const struct program *program)

@@ -35,12 +35,13 @@ struct program_cache;
 
 struct program_source {
     uint64_t structure_hash;
-    const char *map_text, *surface_text; /* of shader.h; copied */
-    size_t number_count;                 /* vec4s in the buffer; at least 1 */
-    bool user_shaders;                   /* USER_SHADERS is defined */
-    bool user_code;                      /* it waits for program_cache_allow */
-    bool volumes;                        /* there may be some */
-    bool fragment;                       /* fragment shaders are wanted, not compute shaders */
+    char *map_text, *surface_text; /* of shader.h or vocabulary.h; copied */
+    size_t number_count;           /* vec4s in the buffer; at least 1 */
+    bool user_shaders;             /* USER_SHADERS is defined */
+    bool user_code;                /* it waits for program_cache_allow */
+    bool volumes;                  /* there may be some */
+    bool fragment;                 /* fragment shaders are wanted, not compute shaders */
+    bool tapes;                    /* an interpreter: numbers come from a texture */
     size_t shape_count;
     size_t code_size; /* of users' code, as field.h has it */
     size_t map_count; /* the first so many are those that the map reads */
@@ -91,6 +92,7 @@ struct program *program_ref(struct program *program);
 void program_unref(struct program_cache *cache, struct program *program);
 
 uint64_t program_structure_hash(const struct program *program);
+bool program_has_tapes(const struct program *program);
 bool program_is_fragment(const struct program *program);
 bool program_has_user_code(const struct program *program);
 enum program_state program_state(const struct program *program);
@@ -98,6 +100,16 @@ enum program_state program_state(const struct program *program);
 const struct error *program_error(const struct program *program);
 /* Valid when ready. */
 const struct pass *program_pass(const struct program *program, enum program_stage stage);
+
+/* How long a picture takes by a program, and by the interpreter that could draw it instead. */
+enum program_way { PROGRAM_COMPILED, PROGRAM_INTERPRETED, PROGRAM_WAYS };
+struct program_time {
+    uint64_t us;
+    int pixels; /* of the picture; 0: nothing is known */
+};
+void program_set_time(struct program *program, enum program_way way, struct program_time time);
+/* The drawing thread's, like the above. */
+struct program_time program_time(const struct program *program, enum program_way way);
 
 /* True when some program became ready or failed since the last call; waits at most that long for
  * it while there is something to wait for. */

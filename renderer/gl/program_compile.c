@@ -36,6 +36,17 @@ static const char *define_volumes(bool volumes)
     return volumes ? "#define VOLUMES\n" : "";
 }
 
+static bool has_numbers_in_texture(const struct gl *gl, const struct program *program,
+                                   bool software)
+{
+    return program->tapes || param_buffer_in_texture(gl, software, program->number_count);
+}
+
+static const char *define_texture(bool in_texture)
+{
+    return in_texture ? "#define PARAMS_IN_TEXTURE\n" : "";
+}
+
 /* What glsl/params.glsl wants to know, and what there is. */
 static char *make_defines(const struct gl *gl, const struct program *program, bool software)
 {
@@ -46,13 +57,11 @@ static char *make_defines(const struct gl *gl, const struct program *program, bo
     if (!out) {
         abort();
     }
-    fprintf(out, "#define PARAMS_COUNT %zu\n#define PARAMS_ROW %d\n%s%s%s", program->number_count,
-            PARAM_BUFFER_ROW,
-            param_buffer_in_texture(gl, software, program->number_count)
-                ? "#define PARAMS_IN_TEXTURE\n"
-                : "",
+    fprintf(out, "#define PARAMS_COUNT %zu\n%s%s%s", program->number_count,
+            define_texture(has_numbers_in_texture(gl, program, software)),
             define_users(program->user_shaders), define_volumes(program->volumes));
-    if (software && program->map_count > 0 && program->map_count <= PRELOAD_MAX) {
+    if (software && !program->tapes && program->map_count > 0 &&
+        program->map_count <= PRELOAD_MAX) {
         fprintf(out, "#define PARAMS_PRELOADED %zu\n#define PARAMS_PRELOAD(X)", program->map_count);
         for (size_t i = 0; i < program->map_count; i++) {
             fprintf(out, " X(%zu)", i);
@@ -89,12 +98,12 @@ char *program_text(const struct program_source *source, enum program_stage stage
                                     {"field_surface.glsl", source->surface_text},
                                     {NULL, NULL}};
     struct shader_text text;
-    char file[FILE_NAME_BYTES], head[128];
+    char file[FILE_NAME_BYTES], head[192];
 
     write_file_name(stage, file);
-    snprintf(head, sizeof head, "#version 430 core\n#define PARAMS_COUNT %zu\n%s%s",
-             source->number_count, define_users(source->user_shaders),
-             define_volumes(source->volumes));
+    snprintf(head, sizeof head, "#version 430 core\n#define PARAMS_COUNT %zu\n%s%s%s",
+             source->number_count, define_texture(source->tapes),
+             define_users(source->user_shaders), define_volumes(source->volumes));
     return include_resolve(&text, head, file, own, err) ? text.text : NULL;
 }
 
@@ -112,8 +121,12 @@ static void warm_up(const struct program_cache *cache, const struct warm_targets
     gl->GenBuffers(1, &frame);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame);
     gl->BufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STATIC_DRAW);
-    param_buffer_init(&params, gl, cache->egl->software, NULL, 0, program->number_count);
+    param_buffer_init(&params, gl, has_numbers_in_texture(gl, program, cache->egl->software), NULL,
+                      0, program->number_count);
     param_buffer_bind(&params, gl);
+    if (program->tapes) {
+        tape_texture_bind(targets->tapes, gl);
+    }
     warm_targets_run(targets, gl, stage, pass);
     gl->Finish();
     param_buffer_finish(&params, gl);

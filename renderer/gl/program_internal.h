@@ -17,7 +17,7 @@ struct program {
     uint64_t structure_hash;
     char *map_text, *surface_text;
     size_t number_count, map_count, shape_count, code_size;
-    bool user_shaders, user_code, volumes, fragment;
+    bool user_shaders, user_code, volumes, fragment, tapes;
     enum program_stage first; /* of its stages, */
     int stages;               /* and how many there are */
     bool allowed;             /* of those with user_code */
@@ -30,6 +30,7 @@ struct program {
     int taken, done;  /* stages that a thread took, and those finished or given up */
     struct pass passes[PROGRAM_STAGES];
     struct error error;
+    struct program_time times[PROGRAM_WAYS];
 };
 
 /* A thread and the program that it compiles. */

@@ -4,6 +4,14 @@
 static const GLenum sky_units[WARM_MAPS] = {UNIT_ENVIRONMENT_MAP, UNIT_SPECULAR_MAP,
                                             UNIT_IRRADIANCE_MAP};
 
+/* The program runs with tapes of nothing. */
+static void make_tapes(struct warm_targets *targets, const struct gl *gl)
+{
+    static const uint32_t nothing[TAPES_ROW][4];
+
+    targets->tapes = tape_texture_create(gl, nothing, TAPES_ROW);
+}
+
 static void make_skies(struct warm_targets *targets, const struct gl *gl)
 {
     for (int i = 0; i < WARM_MAPS; i++) {
@@ -20,6 +28,9 @@ static void make_skies(struct warm_targets *targets, const struct gl *gl)
 bool warm_targets_prepare(struct warm_targets *targets, const struct gl *gl, bool fragment,
                           struct error *err)
 {
+    if (!targets->tapes) {
+        make_tapes(targets, gl);
+    }
     if (fragment && !targets->has_fragment) {
         targets->has_fragment = fragment_targets_init(&targets->fragment, gl, GROUP_SIDE, err);
         make_skies(targets, gl);
@@ -34,6 +45,7 @@ void warm_targets_finish(struct warm_targets *targets, const struct gl *gl)
     targets_finish(&targets->passes, gl);
     fragment_targets_finish(&targets->fragment, gl);
     gl->DeleteTextures(WARM_MAPS, targets->maps);
+    gl->DeleteTextures(1, &targets->tapes);
     *targets = (struct warm_targets){0};
 }
 

@@ -6,6 +6,7 @@
 
 #include "fragment_targets.h"
 #include "program.h"
+#include "tape_texture.h"
 #include "targets.h"
 
 enum { WARM_MAPS = 3 };
@@ -15,6 +16,7 @@ struct warm_targets {
     struct targets passes;
     struct fragment_targets fragment;
     GLuint maps[WARM_MAPS]; /* with the state of an environment's */
+    GLuint tapes;           /* without any operation */
 };
 
 /* `fragment`: for fragment shaders. */

@@ -4,6 +4,7 @@
 #include "frame.glsl"
 
 layout(local_size_x = GROUP_SIZE) in;
+#define GROUP
 
 /* Samples one by one: groups of 64 of them (the arguments of an indirect dispatch), how many, and
  * their places in the tile, x in the low half of a word. */

@@ -33,6 +33,42 @@
     X(EFFECT_CURVATURE, 32) /* of surfaces is wanted */                                            \
     X(EFFECT_SECTION, 64)                                                                          \
     X(EFFECT_ESTIMATES, 128) /* some shapes estimate their distance: field_mask.glsl */
+/* A field as data for an interpreter of shaders: a texture of whole numbers, four in a texel. Its
+ * places are texels of a row behind each other.
+ *
+ *   0          first texel of the operations; of the words of tapes; first vec4 of the materials;
+ *              vec4s of each
+ *   1          length of the grid's unit, as bits of a float
+ *   2, 4, 6    of all shapes, of the opaque ones, of the transmissive ones (field_mask): the first
+ *              cube; the one that lookups begin at, counted from that, and its bits; then the
+ *              latter's least coordinates on the grid
+ *   cubes      each: its first child, counted from the first cube, or 0; first word of its tape;
+ *              words; the field in its middle, as bits of a float
+ *   operations two each: TAPE_OP_... and flags, from bit 16 on its kind in the vocabulary; slots of
+ *              a and, from bit 16 on, b; of point and out; first vec4 of its numbers. Then the
+ *              number that tells what is seen; operations of a loop
+ *   words      four in a texel: the number of an operation; bit 30: b alone; bit 31: minus b */
+#define TAPE_NUMBERS(X)                                                                            \
+    X(TAPES_ROW_BITS, 11) /* of the width of the texture */                                        \
+    X(TAPES_ROW, 1 << TAPES_ROW_BITS)                                                              \
+    X(TAPE_INDEX, 0x3fffffff)                                                                      \
+    X(TAPE_SEEN, 0x100)  /* flags: there is a number that tells what is seen; */                   \
+    X(TAPE_MIXES, 0x200) /* surfaces mix */                                                        \
+    X(TAPE_GRID_BITS, 24)                                                                          \
+    X(TAPE_ORIGIN, 0x555555) /* where 0, 0, 0 is on the grid */                                    \
+    X(TAPE_BOUND, 24)        /* operations that take longer than more steps by a bound */          \
+    X(TAPE_SPACES, 2)        /* the texel of the first space */                                    \
+    X(TAPE_SPACE_TEXELS, 2)
+#define TAPE_OPS(X)                                                                                \
+    X(TAPE_OP_EMPTY)                                                                               \
+    X(TAPE_OP_SHAPE)                                                                               \
+    X(TAPE_OP_COMBINE)                                                                             \
+    X(TAPE_OP_DISTANCE)                                                                            \
+    X(TAPE_OP_TRANSFORM)                                                                           \
+    X(TAPE_OP_WARP)                                                                                \
+    X(TAPE_OP_AFTER)                                                                               \
+    X(TAPE_OP_LOOP)                                                                                \
+    X(TAPE_OP_LOOP_END)
 /* The samples that a dispatch is for. */
 #define PASS_MODES(X)                                                                              \
     X(PASS_TILE)   /* all of the tile's */                                                         \
@@ -94,7 +130,8 @@
     X(UNIT_DIFFUSE)                                                                                \
     X(UNIT_SPECULAR)                                                                               \
     X(UNIT_OPTICAL)                                                                                \
-    X(UNIT_LIGHTS)
+    X(UNIT_LIGHTS)                                                                                 \
+    X(UNIT_TAPES)
 /* Images that are written. There may be but eight at once, so the passes with a field in them, the
  * others, and those that make environments have sets of their own. */
 #define FIELD_IMAGES(X)                                                                            \
@@ -252,6 +289,8 @@
 enum geometry_source { GEOMETRY_SOURCES(INTERFACE_NAME) };
 enum surface_model { SURFACE_MODELS(INTERFACE_NAME) };
 enum { FRAME_EFFECTS(INTERFACE_VALUE) };
+enum { TAPE_NUMBERS(INTERFACE_VALUE) };
+enum tape_op { TAPE_OPS(INTERFACE_NAME) };
 enum pass_mode { PASS_MODES(INTERFACE_NAME) };
 enum { TRANSMISSION_PHASES(INTERFACE_NAME) };
 enum output { OUTPUTS(INTERFACE_NAME) OUTPUT_COUNT };
@@ -266,6 +305,7 @@ enum {
     GROUP_SIDE = 8,  /* samples that one work group covers: group.glsl */
     BLOCK_BITS = 3,
     BLOCK_SIDE = 1 << BLOCK_BITS, /* pixels that share a start: march_pass.glsl */
+    PARAMS_ROW = 256,             /* vec4s in a row of the texture of params.glsl */
     STACK_DEPTH = 8,              /* rays of a sample that wait: stack.glsl */
     SPECULAR_LEVELS = 4,          /* of roughness, in the specular map */
     DISPATCH_LOCATION = 0,        /* the first one of struct Dispatch, */

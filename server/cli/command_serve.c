@@ -73,6 +73,8 @@ static int run(const struct options *options, struct serve_params *params)
                                        option_text(options, OPTION_WORKER_MEMORY),
                                        "--stage",
                                        option_text(options, OPTION_STAGE),
+                                       "--programs",
+                                       option_text(options, OPTION_PROGRAMS),
                                        "--confine",
                                        option_text(options, OPTION_CONFINE),
                                        "--code-time",

@@ -53,7 +53,8 @@ int command_shader(const struct options *options)
     if (scene && webgl) {
         text = renderer_webgl(scene, level ? option_int(options, OPTION_LEVEL) : -1, &err);
     } else if (scene) {
-        text = renderer_shader(scene, (size_t)option_int(options, OPTION_PASS), &err);
+        text = renderer_shader(scene, (size_t)option_int(options, OPTION_PASS),
+                               (enum render_programs)option_int(options, OPTION_PROGRAMS), &err);
     }
     if (text && page) {
         put_page(scene, text);

@@ -34,6 +34,7 @@ void local_render_params(const struct options *options, struct renderer_params *
                    .cache_dir = cache,
                    .debug = true},
         .stage = (enum render_stage)option_int(options, OPTION_STAGE),
+        .programs = (enum render_programs)option_int(options, OPTION_PROGRAMS),
         .log = print_line,
     };
 }

@@ -54,6 +54,11 @@ static const char *stage_choice(size_t index)
     return word_of(render_stage_names, RENDER_STAGES, index);
 }
 
+static const char *program_choice(size_t index)
+{
+    return word_of(render_program_names, RENDER_PROGRAMS, index);
+}
+
 static const char *switch_choice(size_t index)
 {
     return word_of(switch_words, 4, index);
@@ -175,8 +180,14 @@ static const struct option_row table[OPTION_COUNT] = {
         .doc = "What computes pictures: `compute` or `fragment`, shaders of the device of that "
                "kind, from OpenGL 4.3 or 3.3 on; `engine`, vectors of the processors; `auto` takes "
                "the faster shaders of a GPU, tried once and kept in --cache, else the engine. "
-               "Scenes that are too large for compilers of shaders are drawn by the engine in any "
+               "Scenes with too much code for compilers of shaders are drawn by the engine in any "
                "case."},
+    [OPTION_PROGRAMS] = {"programs", 0, "WORD", OPTION_CHOICE, .choice = program_choice,
+        .fallback = "auto", .commands = DRAWING | FOR(SHADER), .stored = true,
+        .doc = "By which programs shaders draw a scene: `compiled` for it alone; `interpreted`, "
+               "which read it as data, so that edits compile nothing; `either` begins with the "
+               "second and takes the faster one when both are there; `auto` is that on a GPU, else "
+               "`compiled`."},
     [OPTION_CACHE] = {"cache", 0, "DIR", OPTION_PATH, .base = BASE_CACHE, .fallback = "fieldcast",
         .commands = DRAWING, .stored = true,
         .doc = "Where compiled shaders are kept, and which stage is the faster one."},
@@ -304,7 +315,8 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_PART] = {"part", 0, "WORD", OPTION_CHOICE, .choice = bench_part_name,
         .fallback = "all", .commands = FOR(BENCH),
         .doc = "What is measured: drawing of the examples, growth with the number of shapes, "
-               "pictures after changes, pictures of all stages side by side, documents, edits."},
+               "pictures after changes, pictures of all stages side by side, pictures by each kind "
+               "of program, documents, edits."},
     [OPTION_REFERENCE] = {"reference", 0, NULL, OPTION_FLAG, .commands = FOR(SCHEMA),
         .doc = "Print the reference page, in Markdown, instead."},
     [OPTION_PASS] = {"pass", 0, "NAME", OPTION_CHOICE, .choice = renderer_pass_name,

@@ -174,14 +174,23 @@ static void every_source_of_hits_has_a_surface(void **state)
 static void write_alone(const char *name, char *out, size_t size)
 {
     static const char store[] = "#include \"sample_sink.glsl\"\n";
+    static const char place[] = "int material_place(float slot) { return 0; }\n";
+    static const char kernels[] = "float shape_of(int kind, vec3 p) { return 0.0; }\n"
+                                  "float combine_of(int kind, float a, float b) { return a; }\n"
+                                  "float share_of(int kind, float a, float b) { return a; }\n"
+                                  "float change_of(int kind, float d) { return d; }\n"
+                                  "vec3 warp_of(int kind, vec3 p) { return p; }\n"
+                                  "float after_of(int kind, float d, vec3 p) { return d; }\n"
+                                  "vec3 first_of(int kind, vec3 p) { return p; }\n"
+                                  "vec3 last_of(int kind, vec3 p) { return p; }\n"
+                                  "vec3 cell_of(int kind, vec3 p, vec3 cell) { return p; }\n";
 
     const struct {
         const char *name, *rest;
-    } rows[] = {{"secondary_rays.glsl", store},
-                {"shade.glsl", store},
-                {"shadow.glsl", store},
-                {"visibility_mean.glsl", store},
-                {"volume.glsl", store}};
+    } rows[] = {{"materials.glsl", place},       {"tapes_run.glsl", kernels},
+                {"tapes_surface.glsl", kernels}, {"secondary_rays.glsl", store},
+                {"shade.glsl", store},           {"shadow.glsl", store},
+                {"visibility_mean.glsl", store}, {"volume.glsl", store}};
     const char *rest = "";
 
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -193,12 +202,15 @@ static void write_alone(const char *name, char *out, size_t size)
 static void each_file_is_whole_by_itself(void **state)
 {
     static const char map[] = "#include \"field.glsl\"\nfloat map(vec3 p) { return 0.0; }\n";
+    static const char defines[] = "#define PARAMS_COUNT 1\n#define TAPE_POINTS 1\n"
+                                  "#define TAPE_DISTANCES 1\n#define TAPE_LOOPS 1\n"
+                                  "#define TAPE_CELLS 1\n";
     static const char surface[] =
         "#include \"mixture.glsl\"\nvoid surface(vec3 p, Shading at, out Surface s) {}\n";
 
     (void)state;
     for (const struct glsl_file *file = glsl_files; file->name; file++) {
-        char text[256];
+        char text[1024];
         const bool pass = strstr(file->name, "_pass.glsl");
         const bool main =
             pass || strcmp(file->name, "resolve.glsl") == 0 || strcmp(file->name, "full.glsl") == 0;
@@ -208,7 +220,7 @@ static void each_file_is_whole_by_itself(void **state)
                                         {"field_surface.glsl", surface},
                                         {"alone.glsl", text},
                                         {NULL, NULL}};
-        const struct pass_source source = {false, "#define PARAMS_COUNT 1\n", "alone.glsl", own};
+        const struct pass_source source = {false, defines, "alone.glsl", own};
         struct pass linked;
         struct error err = {0};
 

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT */
+/* A field as data: operations, and cubes of space with the operations that matter in each
+ * (renderer/engine/tapes.h has the layout). An operation's numbers begin at vec4 `own`. */
+
+#include "params.glsl"
+
+layout(binding = UNIT_TAPES) uniform usampler2D tapes;
+#define TAPE_TEXEL(i) texelFetch(tapes, ivec2((i) & (TAPES_ROW - 1), (i) >> TAPES_ROW_BITS), 0)
+
+int own = 0;
+/* The first of them are there before the operation is known: shapes have their places in space. */
+#define TAPE_AHEAD 6
+vec4 ahead[TAPE_AHEAD];
+
+#undef P
+#undef P_FROM
+#define P(i) ((i) < TAPE_AHEAD ? ahead[min(int(i), TAPE_AHEAD - 1)] : P_ANY(own + int(i)))
+#define P_FROM(i) P_ANY(own + int(i))
+
+#include "field.glsl"
+#include "mixture.glsl"
