@@ -14,6 +14,7 @@ enum bench_part {
     BENCH_GROWTH,
     BENCH_CHANGES,
     BENCH_STAGES,
+    BENCH_PROGRAMS,
     BENCH_DOCUMENTS,
     BENCH_EDITS
 };
@@ -69,6 +70,12 @@ bool bench_effects(struct renderer *renderer, const struct embedded *example,
 
 /* So many shapes in a cube of side 2, in one union. */
 struct scene *bench_union(int count, struct error *err);
+/* Moves a shape of such a scene, another one each turn, by a tenth of the way to the next one. */
+bool bench_move_one(struct resident *resident, int turn, struct error *err);
+/* For each way to draw a field, rows of examples and unions with milliseconds: of the first
+ * picture, with what is compiled for it; of the next ones, by size; after an edit of a shape. */
+cJSON *bench_programs(const struct renderer_params *params, const struct bench_effort *effort,
+                      struct error *err);
 /* One row for each number of shapes: the processor's time of a picture that is the first of its
  * scene, that follows an edit of one shape's place, that shows another view, and that does both;
  * the same as a ratio to that of the first; and the part of the pixels that was drawn after an

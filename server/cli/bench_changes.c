@@ -37,11 +37,10 @@ static void look_from_elsewhere(struct measured *m)
     place->number[2] = 4 + 0.01 * ++m->turns;
 }
 
-/* The next shape by a tenth of the way to the next one. */
-static bool move_one(struct measured *m, struct error *err)
+bool bench_move_one(struct resident *resident, int turn, struct error *err)
 {
-    const struct node *root = resident_scene(m->resident)->root;
-    const struct node *node = root->children[(size_t)m->turns++ * 37 % root->child_count];
+    const struct node *root = resident_scene(resident)->root;
+    const struct node *node = root->children[(size_t)turn * 37 % root->child_count];
 
     while (node->child_count > 0) {
         node = node->children[0];
@@ -54,7 +53,7 @@ static bool move_one(struct measured *m, struct error *err)
                  "[%.9g,%.9g,%.9g]}]",
                  node->id, at[0] * 0.95, at[1] * 0.95, at[2] * 0.95);
     cJSON *ops = json_parse(text, (size_t)length, err);
-    const bool ok = ops && resident_edit(m->resident, ops, resident_revision(m->resident) + 1, err);
+    const bool ok = ops && resident_edit(resident, ops, resident_revision(resident) + 1, err);
 
     cJSON_Delete(ops);
     return ok;
@@ -82,7 +81,8 @@ static bool time_kind(struct measured *m, enum kind kind, double *out_ms, struct
     if (kind == VIEW || kind == EDITED) {
         look_from_elsewhere(m);
     }
-    return ((kind != IN_PART && kind != EDITED) || move_one(m, err)) && draw(m, out_ms, err);
+    return ((kind != IN_PART && kind != EDITED) || bench_move_one(m->resident, m->turns++, err)) &&
+           draw(m, out_ms, err);
 }
 
 static cJSON *row_of(int size, const double ms[KINDS], double drawn)

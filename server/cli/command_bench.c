@@ -39,8 +39,8 @@ double bench_ms_since(int64_t start_us)
 
 const char *bench_part_name(size_t part)
 {
-    static const char *const names[] = {"all",    "drawing",   "growth", "changes",
-                                        "stages", "documents", "edits"};
+    static const char *const names[] = {"all",    "drawing",  "growth",    "changes",
+                                        "stages", "programs", "documents", "edits"};
 
     return part < sizeof names / sizeof names[0] ? names[part] : NULL;
 }
@@ -70,6 +70,8 @@ static cJSON *measure(const struct options *options, enum bench_part part, struc
         return bench_changes(&params, &effort, err);
     case BENCH_STAGES:
         return bench_stages(&params, option_text(options, OPTION_ONLY), &effort, err);
+    case BENCH_PROGRAMS:
+        return bench_programs(&params, &effort, err);
     case BENCH_DOCUMENTS:
         return bench_documents(&params, err);
     case BENCH_EDITS:
@@ -95,7 +97,9 @@ int command_bench(const struct options *options)
     bool ok = add(result, "renderer", measure(options, BENCH_ALL, &err));
     for (enum bench_part part = BENCH_DRAWING; ok && bench_part_name(part); part++) {
         const bool of_examples = part != BENCH_GROWTH && part != BENCH_CHANGES;
-        const bool of_all = part != BENCH_STAGES && (!only || of_examples); /* drawing has stages */
+        /* Drawing has stages; interpreters are for GPUs. */
+        const bool of_all =
+            part != BENCH_STAGES && part != BENCH_PROGRAMS && (!only || of_examples);
         if (asked == part || (asked == BENCH_ALL && of_all)) {
             ok = add(result, bench_part_name(part), measure(options, part, &err));
         }
