@@ -177,6 +177,87 @@ describe('handles of parameters', () => {
     });
 });
 
+describe('handles of an instance', () => {
+    const sets = (name, place, most) => ({ name, type: 'float', sets: `/nodes/${place}`, range: [0.1, most] });
+    const POSTS = {
+        ...SCENE,
+        models: {
+            knob: {
+                params: [sets('across', 'ball-of-it/params/radius', 2)],
+                root: { id: 'ball-of-it', type: 'sphere', params: { radius: 0.3 } },
+            },
+            post: {
+                params: [sets('high', 'pole/params/size.y', 40), sets('knob', 'top/params/across', 1)],
+                root: {
+                    id: 'post-root',
+                    type: 'group',
+                    children: [
+                        { id: 'pole', type: 'box', params: { size: [0.4, 1, 0.4] } },
+                        { id: 'top', type: 'model', params: { model: 'knob' }, transform: { translation: [0.8, 0.2, 0] } },
+                    ],
+                },
+            },
+        },
+        root: {
+            ...SCENE.root,
+            children: [
+                { id: 'low', type: 'model', params: { model: 'post' }, material: 'clay', transform: { translation: [-2, 0, 0] } },
+                { id: 'tall', type: 'model', params: { model: 'post', high: 30 }, material: 'slate', transform: { translation: [2, 0, 0] } },
+            ],
+        },
+    };
+    const handle = async (key) => {
+        const found = async () => (await parts()).find((part) => part.handle === key);
+        await until(found, `the handle ${key}`);
+        const { at, look } = await found();
+        const box = await picture(page).boundingBox();
+        return { x: box.x + at.x, y: box.y + at.y, look, box };
+    };
+    const openPosts = async () => {
+        id = await stage.scene(POSTS);
+        page = await stage.page({ scene: id });
+        await settled(page);
+    };
+
+    test('they are those of the parts that it sets, and set its own values', async () => {
+        await openPosts();
+        const start = await stage.document(id);
+        await select('low');
+        const high = await handle('high');
+        assert.equal(high.look, 'arrow');
+        await drag(high, 0, -60);
+        const grown = await when((d) => nodeIn(d, 'low').params.high > 1.3, 'a higher post');
+        assert.deepEqual(nodeIn(grown, 'pole', grown.models.post.root).params.size, [0.4, 1, 0.4]);
+        const knob = await handle('knob');
+        assert.equal(knob.look, 'dot');
+        await drag(knob, 30, 0);
+        await when((d) => nodeIn(d, 'low').params.knob > 0.4, 'a greater knob');
+        const after = await handle('knob');
+        assert.ok(Math.hypot(after.x - knob.x - 30, after.y - knob.y) < 2, 'the handle went with the pointer');
+        const document = JSON.parse(await stage.document(id));
+        assert.deepEqual(nodeIn(document, 'tall').params, { model: 'post', high: 30 });
+        await page.keyboard.press('Control+z');
+        await page.keyboard.press('Control+z');
+        await until(async () => (await stage.document(id)) === start, 'the document as it was');
+    });
+
+    test('F shows all of an instance, with its own values', async () => {
+        await openPosts();
+        await select('tall');
+        await picture(page).focus();
+        await page.keyboard.press('f');
+        await settled(page);
+        const { y, box } = await handle('high');
+        assert.ok(y > box.y && y < box.y + box.height / 3, `the upper end is at ${y - box.y} of ${box.height}`);
+        await select('low');
+        await picture(page).focus();
+        await page.keyboard.press('f');
+        await settled(page);
+        const near = await handle('high');
+        assert.ok(near.y > box.y && near.y < box.y + box.height / 2, `the upper end is at ${near.y - box.y}`);
+    });
+});
+
 describe('keys', () => {
     test('G X .5 Enter moves by exactly a half', async () => {
         await open();

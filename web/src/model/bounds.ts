@@ -2,7 +2,8 @@
 /* A rough ball around nodes, for framing the view only: a node's own size is taken as the sum of
  * its length parameters, so it needs no knowledge of any node type. */
 import type { Ball } from "./camera.ts";
-import { isVisible, type SceneDocument, type SceneNode } from "./document.ts";
+import { isVisible, modelNamed, type SceneDocument, type SceneNode } from "./document.ts";
+import { type Reading, readingOf } from "./modelParams.ts";
 import { nodeType, type Schema, valueIn } from "./schema.ts";
 import {
     add,
@@ -47,26 +48,28 @@ function ownRadius(node: SceneNode, schema: Schema): number {
     return sum;
 }
 
-/* Its children, and the model that it is an instance of. */
-function partsOf(document: SceneDocument, node: SceneNode, schema: Schema): readonly string[] {
-    const row = nodeType(schema, node.type)?.params.find(({ type }) => type === "model");
-    const model = row && document.models.find(({ name }) => name === node.params[row.name]);
-    return model ? [...node.children, model.root] : node.children;
-}
+const asItIs: Reading = (node) => node;
 
-/* In the space of the node's parent. */
-function ballIn(document: SceneDocument, node: SceneNode, schema: Schema): Ball | null {
+/* In the space of the node's parent; null: nothing is to be seen. An instance has its own numbers in
+ * its model. */
+export function ballIn(
+    document: SceneDocument,
+    node: SceneNode,
+    schema: Schema,
+    reading: Reading = asItIs,
+): Ball | null {
     if (!isVisible(node)) {
         return null;
     }
     let ball: Ball | null = null;
-    const parts = partsOf(document, node, schema);
-    for (const id of parts) {
+    const model = modelNamed(schema, document, node);
+    const inside = model ? readingOf(schema, document, model, node) : reading;
+    for (const id of model ? [model.root] : node.children) {
         const child = document.nodes.get(id);
-        ball = merge(ball, child ? ballIn(document, child, schema) : null);
+        ball = merge(ball, child ? ballIn(document, inside(child), schema, inside) : null);
     }
     const own = ownRadius(node, schema);
-    const isShape = nodeType(schema, node.type)?.children === "none" && parts === node.children;
+    const isShape = nodeType(schema, node.type)?.children === "none" && model === null;
     if (isShape) {
         ball = merge(ball, { center: [0, 0, 0], radius: own || UNKNOWN_RADIUS });
     } else if (ball) {

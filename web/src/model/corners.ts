@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Corners of flat shapes: the points of a row of type `points`, in the plane of their node. They are
  * dragged within it, put in on an edge, and taken away. */
-import type { Handle, HandleChange, Owner } from "./handles.ts";
+import type { Dragged, Handle, HandleChange, Owner } from "./handles.ts";
 import { onPlane, type Projection, type Spot } from "./projection.ts";
 import { type Param, type Value, valueIn } from "./schema.ts";
 import { cross, length, normalize, subtract, type Vector } from "./transform.ts";
@@ -20,7 +20,8 @@ function cornersIn({ values }: Owner, param: Param): readonly Corner[] {
 const inSpace = ([x, y]: Corner): Vector => [x, y, 0];
 
 /* A corner of a row of points, with the way to the corner after it. */
-export function cornerHandles(owner: Owner, param: Param, projection: Projection): Handle[] {
+export function cornerHandles(dragged: Dragged, projection: Projection): Handle[] {
+    const { owner, param } = dragged;
     const corners = cornersIn(owner, param);
     const spots = corners.map((corner) => projection.spotOf(owner.toWorld(inSpace(corner))));
     return corners.flatMap((corner, index) => {
@@ -28,8 +29,9 @@ export function cornerHandles(owner: Owner, param: Param, projection: Projection
         return spot
             ? [
                   {
+                      ...dragged,
                       key: `${param.name}.${index}`,
-                      ...{ param, owner, spot },
+                      spot,
                       component: index,
                       texts: inSpace(corner).map(String),
                       look: { kind: "corner" as const, next },
@@ -67,8 +69,8 @@ function underSpot(owner: Owner, projection: Projection, spot: Spot): Corner | n
     return [own[0], own[1]];
 }
 
-function changeTo({ owner, param }: Handle, points: readonly Corner[]): HandleChange["op"] {
-    return { op: "set", at: `${owner.at}/${param.name}`, value: points };
+function changeTo({ at }: Handle, points: readonly Corner[]): HandleChange["op"] {
+    return { op: "set", at, value: points };
 }
 
 const bounded = (x: number): number => tidy(Math.min(COORDINATE, Math.max(-COORDINATE, x)));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Handles of parameters: points of a node, light or volume at which a value is seen and dragged. Where
  * they are is a fact of the registry (`handle` of its rows). */
-import { ballOf } from "./bounds.ts";
+import { ballIn } from "./bounds.ts";
 import { cornerHandles, cornerLabel, dragCorner, isCorner } from "./corners.ts";
 import {
     findResource,
@@ -9,12 +9,15 @@ import {
     pathTo,
     resourceParams,
     type SceneDocument,
+    type SceneNode,
 } from "./document.ts";
+import { type Reading, settingOf } from "./modelParams.ts";
 import type { Operation } from "./operation.ts";
 import { valuesPlace } from "./places.ts";
 import { alongLine, onPlane, type Projection, type Spot } from "./projection.ts";
 import {
     components,
+    findParam,
     matters,
     nodeType,
     type Param,
@@ -24,11 +27,13 @@ import {
 } from "./schema.ts";
 import {
     add,
-    fromWorld,
+    fromParent,
+    into,
     length,
+    outOf,
     scale,
     subtract,
-    toWorld,
+    transformOf,
     type Vector,
     vectorOf,
 } from "./transform.ts";
@@ -38,7 +43,6 @@ import type { Subject } from "./view.ts";
 
 /* What has handles: its rows and values, and its space. */
 export interface Owner {
-    readonly at: string;
     readonly params: readonly Param[];
     readonly values: Values;
     readonly toWorld: (point: Vector) => Vector;
@@ -60,13 +64,24 @@ export type HandleLook =
     /* The reach of a blend: pixels around the middle of what it joins. */
     | { readonly kind: "band"; readonly middle: Spot; readonly radius: number };
 
-export interface Handle {
+/* What a handle drags. */
+export interface Dragged {
+    readonly owner: Owner;
+    readonly param: Param;
+    /* What it is called: the row's name, or that of an instance's parameter that sets it. */
+    readonly name: string;
+    /* Where the value goes, and the row whose range it keeps to. */
+    readonly at: string;
+    readonly limits: Param;
+    /* Which number of the value that is; null: all. */
+    readonly part: number | null;
+}
+
+export interface Handle extends Dragged {
     /* "radius", "size.x", "points.0". */
     readonly key: string;
-    readonly param: Param;
     /* Which number or point of the value it changes; null: all, as a place. */
     readonly component: number | null;
-    readonly owner: Owner;
     /* The texts of its three coordinates. */
     readonly texts: readonly string[];
     readonly spot: Spot;
@@ -167,69 +182,113 @@ function lookOf(owner: Owner, param: Param, component: number | null, curve: Cur
     return owner.joins ? bandOf(curve) : arrowOf(curve);
 }
 
-function handlesOfParam(owner: Owner, param: Param, projection: Projection): Handle[] {
+/* The name of a number in expressions: "radius", "size.x". */
+const numberName = (name: string, count: number, component: number | null): string =>
+    count > 1 && component !== null ? `${name}.${LETTERS[component]}` : name;
+
+function handlesOfParam(dragged: Dragged, projection: Projection): Handle[] {
+    const { owner, param, name, part } = dragged;
     if (param.type === "points") {
-        return cornerHandles(owner, param, projection);
+        return cornerHandles(dragged, projection);
     }
     const points = param.handle
         .split(";")
         .map((point) => point.split(",").map((text) => text.trim()));
     const count = components(param.type);
     return points.flatMap((texts, i) => {
-        const component = points.length === 1 && count > 1 ? null : i;
-        const key = count > 1 && component !== null ? `${param.name}.${LETTERS[i]}` : param.name;
+        const component = points.length === 1 && count > 1 ? part : i;
+        if (part !== null && component !== part) {
+            return [];
+        }
+        const key = part === null ? numberName(name, count, component) : name;
+        const number = numberName(param.name, count, component);
         const point = pointOf(owner, texts);
         const spot = point && projection.spotOf(point);
-        const at = (value: number): Vector | null => pointOf(owner, texts, key, value);
+        const at = (value: number): Vector | null => pointOf(owner, texts, number, value);
         const look = lookOf(owner, param, component, {
-            value: namesOf(owner)(key),
+            value: namesOf(owner)(number),
             projection,
             at,
         });
-        return spot ? [{ key, param, component, owner, texts, spot, look }] : [];
+        return spot ? [{ ...dragged, key, component, texts, spot, look }] : [];
     });
 }
 
-function nodeOwner(document: SceneDocument, schema: Schema, id: string): Owner | null {
-    const node = document.nodes.get(id);
-    if (!node || pathTo(document, id)[0]?.id !== document.root) {
+/* Of the last node of a path. */
+function ownerAt(
+    document: SceneDocument,
+    schema: Schema,
+    path: readonly SceneNode[],
+    reading?: Reading,
+): Owner | null {
+    const node = path.at(-1);
+    if (!node) {
         return null;
     }
     /* What an operation does has no place of its own: it is shown in the middle of its operands. */
     const isOperation = nodeType(schema, node.type)?.group === "operation";
-    const middle = isOperation
-        ? fromWorld(document, id, ballOf(document, schema, [id]).center)
-        : ORIGIN;
+    const ball = isOperation ? ballIn(document, node, schema, reading) : null;
+    const middle = ball ? fromParent(transformOf(node), ball.center) : ORIGIN;
     return {
-        at: `/nodes/${id}/params`,
         params: nodeParams(schema, document, node),
         values: node.params,
-        toWorld: (point) => toWorld(document, id, add(point, middle)),
-        fromWorld: (point) => subtract(fromWorld(document, id, point), middle),
+        toWorld: (point) => outOf(path, add(point, middle)),
+        fromWorld: (point) => subtract(into(path, point), middle),
         joins: isOperation,
     };
 }
 
-function resourceOwner(
+const itself = (owner: Owner, param: Param, place: string): Dragged => ({
+    ...{ owner, param, name: param.name, at: `${place}/${param.name}`, limits: param },
+    part: null,
+});
+
+/* What a parameter of an instance changes of a node within. */
+function within(
+    document: SceneDocument,
+    schema: Schema,
+    path: readonly SceneNode[],
+    own: Dragged,
+): Dragged | null {
+    const setting = settingOf(schema, document, path, own.name);
+    if (setting?.target.group !== "params") {
+        return null;
+    }
+    const { target, reading } = setting;
+    const owner = ownerAt(document, schema, setting.path, reading);
+    const param = owner && findParam(owner.params, target.name);
+    return param ? { ...own, owner, param, part: target.component } : null;
+}
+
+function nodeValues(document: SceneDocument, schema: Schema, id: string): readonly Dragged[] {
+    const path = pathTo(document, id);
+    const owner = path[0]?.id === document.root ? ownerAt(document, schema, path) : null;
+    return (owner?.params ?? []).flatMap((param) => {
+        const own = owner && itself(owner, param, `/nodes/${id}/params`);
+        return (own && (within(document, schema, path, own) ?? own)) || [];
+    });
+}
+
+function resourceValues(
     document: SceneDocument,
     schema: Schema,
     { list, name }: Extract<Subject, { kind: "resource" }>,
-): Owner | null {
+): readonly Dragged[] {
     const resource = findResource(document, list, name);
     const params = resource ? resourceParams(schema, document, list, resource.type) : [];
     const row = params.find((param) => param.name === "position");
     if (!resource || !row) {
-        return null;
+        return [];
     }
     const position = vectorOf(numbersOf(valueIn(resource.values, row)));
-    return {
-        at: valuesPlace(list, name),
+    const owner: Owner = {
         params,
         values: resource.values,
         toWorld: (point) => add(point, position),
         fromWorld: (point) => subtract(point, position),
         joins: false,
     };
+    return params.map((param) => itself(owner, param, valuesPlace(list, name)));
 }
 
 /* Of the one node that is selected, or of the light or volume that the inspector shows. */
@@ -240,16 +299,16 @@ export function handlesOf(
     subject: Subject,
     projection: Projection,
 ): readonly Handle[] {
-    const owner =
+    const all =
         subject.kind === "resource"
-            ? resourceOwner(document, schema, subject)
+            ? resourceValues(document, schema, subject)
             : selection.length === 1 && subject.kind === "nodes"
-              ? nodeOwner(document, schema, selection[0] ?? "")
-              : null;
-    return (owner?.params ?? [])
-        .filter((param) => param.handle !== "" || param.type === "points")
-        .filter((param) => owner && matters(owner.params, owner.values, param))
-        .flatMap((param) => (owner ? handlesOfParam(owner, param, projection) : []));
+              ? nodeValues(document, schema, selection[0] ?? "")
+              : [];
+    return all
+        .filter(({ param }) => param.handle !== "" || param.type === "points")
+        .filter(({ owner, param }) => matters(owner.params, owner.values, param))
+        .flatMap((dragged) => handlesOfParam(dragged, projection));
 }
 
 /* "radius 0.75", "b 0 0.5 0". */
@@ -283,12 +342,13 @@ const SNAP_ANGLE = Math.PI / 12;
 
 /* The value whose point is nearest to a ray: Newton's steps along the tangent of its curve. */
 function valueNear(handle: Handle, projection: Projection, spot: Spot): number | null {
-    const { owner, texts, key, param } = handle;
+    const { owner, texts, param, component, limits } = handle;
+    const number = numberName(param.name, components(param.type), component);
     const ray = projection.rayAt(spot);
-    let value = namesOf(owner)(key);
+    let value = namesOf(owner)(number);
     for (let i = 0; i < STEPS; i++) {
-        const here = pointOf(owner, texts, key, value);
-        const there = pointOf(owner, texts, key, value + NUDGE);
+        const here = pointOf(owner, texts, number, value);
+        const there = pointOf(owner, texts, number, value + NUDGE);
         if (!here || !there) {
             return null;
         }
@@ -298,7 +358,7 @@ function valueNear(handle: Handle, projection: Projection, spot: Spot): number |
         if (far === null) {
             return null;
         }
-        value = clampNumber(param, value + far / speed);
+        value = clampNumber(limits, value + far / speed);
     }
     return value;
 }
@@ -324,7 +384,7 @@ export function dragHandle(
     to: Spot,
     snaps: boolean,
 ): HandleChange | null {
-    const { param, owner, component } = handle;
+    const { param, owner, component, limits, part } = handle;
     const spot = { x: handle.spot.x + to.x - from.x, y: handle.spot.y + to.y - from.y };
     if (isCorner(handle)) {
         return dragCorner(handle, projection, spot, snaps);
@@ -332,7 +392,8 @@ export function dragHandle(
     const angle = isAngle(param.unit);
     const rounded = (x: number): number => {
         const stepped = snaps ? snap(x, angle ? SNAP_ANGLE : SNAP_LENGTH) : x;
-        return angle ? tidyAngle(clampNumber(param, stepped)) : tidy(clampNumber(param, stepped));
+        const clamped = clampNumber(limits, stepped);
+        return angle ? tidyAngle(clamped) : tidy(clamped);
     };
     const place = component === null ? placeNear(handle, projection, spot) : null;
     const number = component === null ? null : valueNear(handle, projection, spot);
@@ -345,9 +406,9 @@ export function dragHandle(
         const wanted = place ? place[i] : i === component ? number : x;
         return wanted == null ? x : i === component || place ? rounded(wanted) : x;
     });
-    const value = count === 1 ? (next[0] ?? 0) : next;
+    const value = count === 1 || part !== null ? (next[part ?? 0] ?? 0) : next;
     return {
-        op: { op: "set", at: `${owner.at}/${param.name}`, value },
+        op: { op: "set", at: handle.at, value },
         label: labelOf(handle, next),
     };
 }

@@ -1,7 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* Parameters of models: the number of the tree that each sets, and the tree as an instance has it. */
 import { declaredParams, rowsOf } from "./declaredParams.ts";
-import { nodeParams, type Resource, type SceneDocument } from "./document.ts";
+import {
+    modelNamed,
+    nodeParams,
+    pathTo,
+    type Resource,
+    type SceneDocument,
+    type SceneNode,
+} from "./document.ts";
 import { isObject, type Json, type JsonObject, listOf, textOf } from "./json.ts";
 import type { Operation } from "./operation.ts";
 import {
@@ -133,6 +140,29 @@ function put(
     return { ...record, [name]: parts };
 }
 
+/* A node of a model, printed or not, with an instance's own numbers in it. */
+function nodeWith<N extends { id?: unknown; params?: unknown; transform?: unknown }>(
+    schema: Schema,
+    document: SceneDocument,
+    model: Resource,
+    values: Values,
+    tree: N,
+): N {
+    let node = tree;
+    for (const { name, sets } of settingsOf(model)) {
+        const target = targetOf(textOf(sets));
+        const value = values[name];
+        if (target === null || value === undefined || target.node !== node.id) {
+            continue;
+        }
+        const record = (node[target.group] ?? {}) as JsonObject;
+        const found = targetIn(schema, document, target);
+        const from = record[target.name] ?? (found?.param.default as Json);
+        node = { ...node, [target.group]: put(record, target, from, value) };
+    }
+    return node;
+}
+
 /* A model's tree, printed, with an instance's own numbers in it. */
 export function treeWith(
     schema: Schema,
@@ -141,24 +171,63 @@ export function treeWith(
     values: Values,
     tree: JsonObject,
 ): JsonObject {
-    let { ...node } = tree;
-    for (const { name, sets } of settingsOf(model)) {
-        const target = targetOf(textOf(sets));
-        const value = values[name];
-        if (target === null || value === undefined || target.node !== node.id) {
-            continue;
-        }
-        const record = isObject(node[target.group]) ? (node[target.group] as JsonObject) : {};
-        const found = targetIn(schema, document, target);
-        const from = record[target.name] ?? (found?.param.default as Json);
-        node = { ...node, [target.group]: put(record, target, from, value) };
-    }
+    const node = nodeWith(schema, document, model, values, tree);
     const children = listOf(node.children).filter(isObject);
     return children.length === 0
-        ? node
+        ? { ...node }
         : {
               ...node,
               children: children.map((child) => treeWith(schema, document, model, values, child)),
+          };
+}
+
+/* How nodes are read: as they are, or as an instance has them. */
+export type Reading = (node: SceneNode) => SceneNode;
+
+/* The nodes of the model that an instance names. */
+export function readingOf(
+    schema: Schema,
+    document: SceneDocument,
+    model: Resource,
+    instance: SceneNode,
+): Reading {
+    return (node) => nodeWith(schema, document, model, instance.params, node);
+}
+
+/* What a parameter of an instance sets at last. */
+export interface Setting {
+    /* From the root of the scene, through the instances, to the node, each as it is read there. */
+    readonly path: readonly SceneNode[];
+    readonly reading: Reading;
+    readonly target: Target;
+}
+
+/* `path` ends at the instance. */
+export function settingOf(
+    schema: Schema,
+    document: SceneDocument,
+    path: readonly SceneNode[],
+    name: string,
+): Setting | null {
+    const instance = path.at(-1);
+    const model = modelNamed(schema, document, instance);
+    const row = model && settingsOf(model).find((one) => one.name === name);
+    const target = targetOf(textOf(row?.sets));
+    if (!instance || !model || !target) {
+        return null;
+    }
+    const reading = readingOf(schema, document, model, instance);
+    const inner = [...path, ...pathTo(document, target.node).map(reading)];
+    const further =
+        target.group === "params" ? settingOf(schema, document, inner, target.name) : null;
+    return further === null
+        ? { path: inner, reading, target }
+        : {
+              ...further,
+              target: {
+                  ...further.target,
+                  component: further.target.component ?? target.component,
+              },
           };
 }
 

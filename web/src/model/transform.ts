@@ -136,21 +136,30 @@ function shiftOf({ type, params }: SceneNode): Vector {
     return type === TURNING ? [Number(params.offset ?? 0), 0, 0] : NOWHERE;
 }
 
-/* From a node's own space to the world's. */
-export function toWorld(document: SceneDocument, id: string, point: Vector): Vector {
-    return pathTo(document, id).reduceRight(
-        (p, node) => toParent(transformOf(node), node.id === id ? p : add(p, shiftOf(node))),
+/* From the space of the last node of a path to what is around the first. */
+export function outOf(path: readonly SceneNode[], point: Vector): Vector {
+    return path.reduceRight(
+        (p, node, i) =>
+            toParent(transformOf(node), i === path.length - 1 ? p : add(p, shiftOf(node))),
         point,
     );
 }
 
-/* From the world to a node's own space. */
-export function fromWorld(document: SceneDocument, id: string, point: Vector): Vector {
-    return pathTo(document, id).reduce((p, node) => {
+/* The way back. */
+export function into(path: readonly SceneNode[], point: Vector): Vector {
+    return path.reduce((p, node, i) => {
         const own = fromParent(transformOf(node), p);
-        return node.id === id ? own : subtract(own, shiftOf(node));
+        return i === path.length - 1 ? own : subtract(own, shiftOf(node));
     }, point);
 }
+
+/* From a node's own space to the world's. */
+export const toWorld = (document: SceneDocument, id: string, point: Vector): Vector =>
+    outOf(pathTo(document, id), point);
+
+/* From the world to a node's own space. */
+export const fromWorld = (document: SceneDocument, id: string, point: Vector): Vector =>
+    into(pathTo(document, id), point);
 
 /* From the world to where a node's children have their places. */
 export function fromWorldInto(document: SceneDocument, parent: string, point: Vector): Vector {
