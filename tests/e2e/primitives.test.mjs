@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { ask, until } from '../support/daemon.mjs';
-import { documentWhen, field, nodeIn, pictureChanged, pixels, row, SCENE, settled, useStage } from './stage.mjs';
+import { difference, documentWhen, field, nodeIn, pictureChanged, pixels, row, SCENE, settled, stillPixels, useStage } from './stage.mjs';
 
 const stage = useStage();
 let page;
@@ -133,6 +133,68 @@ describe('primitives of nodes', () => {
         assert.equal(nodeIn(gone, 'pair-1').params.across, undefined);
         await page.keyboard.press('Control+z');
         await when((d) => nodeIn(d, 'pair-1').params.across === 1.5, 'all of it again');
+    });
+
+    test('another name is followed by outer models that set it, and by all values', async () => {
+        const sets = (name, place) => ({ name, type: 'float', sets: `/nodes/${place}`, range: [0.2, 2] });
+        const scene = (across, bright) => ({
+            ...SCENE,
+            models: {
+                bulb: {
+                    params: [sets(across, 'glass/params/radius'), sets('foot', 'socket/params/radius')],
+                    root: {
+                        id: 'bulb-root',
+                        type: 'group',
+                        children: [
+                            { id: 'glass', type: 'sphere' },
+                            { id: 'socket', type: 'cylinder', transform: { translation: [0, -1, 0] } },
+                        ],
+                    },
+                },
+                lamp: {
+                    params: [sets(bright, `head/params/${across}`)],
+                    root: { id: 'head', type: 'model', params: { model: 'bulb', [across]: 0.4, foot: 0.3 } },
+                },
+                room: {
+                    params: [sets('mood', `hung/params/${bright}`)],
+                    root: { id: 'hung', type: 'model', params: { model: 'lamp', [bright]: 0.6 } },
+                },
+            },
+            root: {
+                ...SCENE.root,
+                children: [
+                    { id: 'one', type: 'model', params: { model: 'lamp', [bright]: 0.9 } },
+                    { id: 'two', type: 'model', params: { model: 'room', mood: 0.7 }, transform: { translation: [2, 0, 0] } },
+                    { id: 'three', type: 'model', params: { model: 'bulb', [across]: 0.8 }, transform: { translation: [-2, 0, 0] } },
+                ],
+            },
+        });
+        const printed = async (document) => stage.document(await stage.scene(document));
+        const is = async (document, what) => {
+            const wanted = await printed(document);
+            await until(async () => (await stage.document(id)) === wanted, what);
+        };
+        await open(scene('wide', 'glow'));
+        const start = await stage.document(id);
+        await settled(page);
+        const before = await stillPixels(page);
+        await row(page, 'three').click();
+        await page.getByRole('button', { name: 'Choose its parameters' }).click();
+        await page.getByTestId('primitive').waitFor();
+        await page.getByLabel('Name of the parameter for radius', { exact: true }).first().fill('across');
+        await press('Save');
+        await is(scene('across', 'glow'), 'the new name everywhere');
+        await settled(page);
+        assert.ok(difference(await stillPixels(page), before) <= 1, 'the picture stays');
+        await page.keyboard.press('Control+z');
+        await until(async () => (await stage.document(id)) === start, 'the old name everywhere');
+
+        await row(page, 'one').click();
+        await page.getByRole('button', { name: 'Choose its parameters' }).click();
+        await page.getByTestId('primitive').waitFor();
+        await page.getByLabel('Name of the parameter for wide', { exact: true }).fill('bright');
+        await press('Save');
+        await is(scene('wide', 'bright'), 'a new name of what sets it');
     });
 
     test('it can go to My library alone, and comes from there with its parameters', async () => {

@@ -243,3 +243,53 @@ test("a primitive is a model with parameters, and an instance of it", () => {
     const changed = changeParameters(set, SCHEMA, model(set, "Big-jug-1"), [other]);
     expect(after(set, changed.ops).nodes.get(id)?.params.across).toBe(2);
 });
+
+/* The scene, with a model around the lamp; `names` of parameters come in place of others. */
+function nested(names: Record<string, string> = {}): SceneDocument {
+    const json = structuredClone(SCENE) as unknown as {
+        models: Record<string, unknown>;
+        root: { children: unknown[] };
+    };
+    json.models.room = {
+        params: [{ name: "mood", type: "float", sets: "/nodes/hung/params/glow", range: [1, 2] }],
+        root: { id: "hung", type: "model", params: { model: "lamp", glow: 1.5 } },
+    };
+    json.root.children.push(
+        { id: "c", type: "model", params: { model: "room", mood: 1.25 } },
+        { id: "d", type: "model", params: { model: "lamp", glow: 1.75 } },
+        { id: "e", type: "model", params: { model: "bulb", wide: 0.75 } },
+    );
+    const text = JSON.stringify(json).replace(
+        /\b(wide|glow|high)\b/g,
+        (name) => names[name] ?? name,
+    );
+    return readDocument(JSON.parse(text) as Json);
+}
+
+function renamed(document: SceneDocument, name: string, names: Record<string, string>) {
+    const found = model(document, name);
+    const choices = chosenIn(found).map((one) => ({ ...one, name: names[one.name] ?? one.name }));
+    return after(document, changeParameters(document, SCHEMA, found, choices).ops);
+}
+
+test.each([
+    ["bulb", { wide: "across" }],
+    ["lamp", { glow: "shine" }],
+    ["lamp", { glow: "high", high: "glow" }],
+])("a parameter of %s under another name keeps all that refers to it", (name, names) => {
+    const document = renamed(nested(), name, names as Record<string, string>);
+    expect(printDocument(document)).toEqual(printDocument(nested(names as Record<string, string>)));
+});
+
+test("a parameter that goes takes along those that set it in instances", () => {
+    const document = nested();
+    const gone = changeParameters(document, SCHEMA, model(document, "bulb"), []);
+    const left = after(document, gone.ops);
+    expect([sets(left, "bulb"), sets(left, "room")]).toEqual([[], []]);
+    expect(sets(left, "lamp")).toEqual(["/nodes/pole/params/size.y"]);
+    expect(left.nodes.get("a")?.params).toEqual({ model: "lamp", high: 5 });
+    expect(left.nodes.get("e")?.params).toEqual({ model: "bulb" });
+    expect(gone.ops.map((op) => "at" in op && op.at)).toEqual([
+        ...["/models/room/params", "/models/lamp/params", "/models/bulb/params"],
+    ]);
+});

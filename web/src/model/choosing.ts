@@ -3,6 +3,8 @@
  * one is at first, why it cannot be so, and the edits that come of it. */
 import { whyNotIdentifier } from "./declaredParams.ts";
 import {
+    findResource,
+    modelNamed,
     modelOf,
     nodeParams,
     preorder,
@@ -11,7 +13,16 @@ import {
     type SceneNode,
 } from "./document.ts";
 import type { Json } from "./json.ts";
-import { placeOf, released, SETTINGS, settingsOf, type Target, targetOf } from "./modelParams.ts";
+import {
+    allRows,
+    placeOf,
+    release,
+    released,
+    setRows,
+    settingsOf,
+    type Target,
+    targetOf,
+} from "./modelParams.ts";
 import { makeModel } from "./models.ts";
 import type { Operation } from "./operation.ts";
 import type { ResourceEdit } from "./resources.ts";
@@ -212,12 +223,6 @@ const rowOf = ({ name, type, target, range, doc }: Choice): DeclaredRow => ({
     ...(doc === "" ? {} : { doc }),
 });
 
-const setRows = (model: string, choices: readonly Choice[]): Operation => ({
-    op: "set",
-    at: `/models/${model}/${SETTINGS}`,
-    value: choices.length > 0 ? choices.map(rowOf) : null,
-});
-
 /* A model of a node, with parameters, and an instance in its place. */
 export function makePrimitive(
     document: SceneDocument,
@@ -234,32 +239,102 @@ export function makePrimitive(
     return {
         ...made,
         label: `make primitive ${made.name}`,
-        ops: [...released(schema, document, moved), ...made.ops, setRows(made.name, choices)],
+        ops: [
+            ...released(schema, document, moved),
+            ...made.ops,
+            setRows(made.name, choices.map(rowOf)),
+        ],
     };
 }
 
-/* Other parameters of a model. Instances keep their values, also under another name. */
+/* Old names of a model's parameters and the new ones; a parameter that goes has none. */
+type Names = ReadonlyMap<string, string>;
+
+function namesAfter(old: readonly DeclaredRow[], rows: readonly DeclaredRow[]): Names {
+    return new Map(
+        old.flatMap(({ name, type, sets }): [string, string][] => {
+            const same = rows.find((row) => row.sets === sets && row.type === type);
+            return same ? [[name, same.name]] : [];
+        }),
+    );
+}
+
+/* Rows of an outer model, with what they set of instances under its name by now. */
+function followed(
+    schema: Schema,
+    document: SceneDocument,
+    rows: readonly DeclaredRow[],
+    names: ReadonlyMap<string, Names>,
+): readonly DeclaredRow[] {
+    return rows.flatMap((row) => {
+        const target = targetOf(row.sets ?? "");
+        const node = document.nodes.get(target?.node ?? "");
+        const inner = modelNamed(schema, document, node);
+        const fresh = target?.group === "params" && inner ? names.get(inner.name) : undefined;
+        if (!target || !fresh) {
+            return [row];
+        }
+        const name = fresh.get(target.name);
+        return name === undefined ? [] : [{ ...row, sets: placeOf({ ...target, name }) }];
+    });
+}
+
+/* What instances have, under the names by now. */
+function valuesUnder(
+    schema: Schema,
+    document: SceneDocument,
+    model: string,
+    names: readonly (readonly [string, string])[],
+): Operation[] {
+    return usersOf(schema, document, "models", model).flatMap(({ name: user }) => {
+        const own = document.nodes.get(user)?.params ?? {};
+        return names.flatMap(([from, to]): Operation[] =>
+            own[from] === undefined && own[to] === undefined
+                ? []
+                : [
+                      {
+                          op: "set",
+                          at: `/nodes/${user}/params/${to}`,
+                          value: (own[from] ?? null) as Json,
+                      },
+                  ],
+        );
+    });
+}
+
+/* Other parameters of a model. Instances keep their values, also under another name, and so do outer
+ * models what they set of instances. */
 export function changeParameters(
     document: SceneDocument,
     schema: Schema,
     model: Resource,
     choices: readonly Choice[],
 ): ResourceEdit {
-    const old = chosenIn(model);
-    const renames = choices.flatMap((choice) => {
-        const from = old.find((one) => placeOf(one.target) === placeOf(choice.target));
-        return from && from.name !== choice.name ? [{ from: from.name, to: choice.name }] : [];
+    const old = settingsOf(model);
+    const names = new Map([[model.name, namesAfter(old, choices.map(rowOf))]]);
+    const isKept = ({ name }: DeclaredRow): boolean => names.get(model.name)?.get(name) === name;
+    const kept = allRows(document).set(model.name, old.filter(isKept));
+    /* What an outer model sets goes, and comes back once it is there under its new name. */
+    const outer = release(schema, document, kept, []);
+    const back = [...outer].reverse().flatMap((name) => {
+        const before = settingsOf(findResource(document, "models", name) ?? model);
+        const rows = followed(schema, document, before, names);
+        const stay = new Set(rows.map((row) => row.name));
+        names.set(name, new Map([...stay].map((one) => [one, one])));
+        return rows.length > (kept.get(name)?.length ?? 0) ? [setRows(name, rows)] : [];
     });
-    const values = usersOf(schema, document, "models", model.name).flatMap(({ name: user }) =>
-        renames.flatMap(({ from, to }): Operation[] => {
-            const value = document.nodes.get(user)?.params[from];
-            return value === undefined
-                ? []
-                : [{ op: "set", at: `/nodes/${user}/params/${to}`, value: value as Json }];
-        }),
-    );
+    const values = [...names].flatMap(([name, pairs]) => {
+        const lasting = new Set(kept.get(name)?.map((row) => row.name));
+        const others = [...pairs].filter(([from]) => !lasting.has(from));
+        return valuesUnder(schema, document, name, others);
+    });
     return {
-        ops: [setRows(model.name, choices), ...values],
+        ops: [
+            ...outer.map((name) => setRows(name, kept.get(name) ?? [])),
+            setRows(model.name, choices.map(rowOf)),
+            ...back,
+            ...values,
+        ],
         label: `parameters of ${model.name}`,
         select: [],
         name: model.name,

@@ -233,17 +233,30 @@ export function settingOf(
 
 /* --- what stands in the way --- */
 
-/* Takes away the parameters that set something of nodes that are about to go, and those that set
- * these parameters of an instance. What sets something goes before what is set. */
-export function released(
+/* The edit that gives a model these rows. */
+export const setRows = (model: string, rows: readonly DeclaredRow[]): Operation => ({
+    op: "set",
+    at: `/models/${model}/${SETTINGS}`,
+    value: rows.length > 0 ? rows : null,
+});
+
+/* Rows that stay, by the name of their model. */
+export type Kept = Map<string, readonly DeclaredRow[]>;
+
+export const allRows = (document: SceneDocument): Kept =>
+    new Map(document.models.map((model) => [model.name, settingsOf(model)]));
+
+/* Takes out of `kept` what sets something of nodes that are about to go, and what sets, of an
+ * instance, a row that its model has not kept. Answers of which models, those that set something
+ * before those in which it is set. */
+export function release(
     schema: Schema,
     document: SceneDocument,
+    kept: Kept,
     ids: readonly string[],
-): Operation[] {
+): readonly string[] {
     const gone = new Set(ids);
-    const kept = new Map(document.models.map((model) => [model.name, settingsOf(model)]));
     const order: string[] = [];
-    /* Of an instance, by a parameter that its model is about to lose. */
     const isLost = ({ node, group, name }: Target): boolean =>
         group === "params" &&
         document.models.some(
@@ -266,12 +279,16 @@ export function released(
             }
         }
     }
-    return [...new Set(order)].map((name) => {
-        const rows = kept.get(name) ?? [];
-        return {
-            op: "set",
-            at: `/models/${name}/${SETTINGS}`,
-            value: rows.length > 0 ? rows : null,
-        };
-    });
+    return [...new Set(order)];
+}
+
+/* Takes away the parameters that set something of nodes that are about to go, and those that set
+ * these parameters of an instance. */
+export function released(
+    schema: Schema,
+    document: SceneDocument,
+    ids: readonly string[],
+): Operation[] {
+    const kept = allRows(document);
+    return release(schema, document, kept, ids).map((name) => setRows(name, kept.get(name) ?? []));
 }
