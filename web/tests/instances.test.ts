@@ -72,6 +72,7 @@ const DOCUMENT = readDocument({
                 sets("melt", "joint/params/k", "float", [0, 2]),
                 sets("dull", "tip/params/plain"),
                 sets("grow", "joint/transform/scale"),
+                sets("place", "tip/transform/translation", "vec3", [-9, 9]),
             ],
             root: {
                 id: "lamp-root",
@@ -142,9 +143,9 @@ function named(document: SceneDocument, id: string, key: string): Handle {
 }
 
 /* The scene with an instance's parts in its place, and those of the instances among them. */
-function unpacked(id: string): SceneDocument {
+function unpacked(id: string, more: readonly string[] = ["head-1"]): SceneDocument {
     let document = DOCUMENT;
-    for (const name of [id, "head-1"]) {
+    for (const name of [id, ...more]) {
         const result = apply(document, unpackModel(document, SCHEMA, name)?.ops ?? [], SCHEMA);
         if (!result.ok) {
             throw new Error(result.problem.message);
@@ -166,7 +167,7 @@ const SAME = [
 
 test.each(["a", "b"])("instance %s has the handles of what its parameters set", (id) => {
     expect(handlesIn(DOCUMENT, id).map(({ key }) => key)).toEqual([
-        ...["high", "foot.x", "foot.y", "foot.z", "glow", "deep", "melt"],
+        ...["high", "foot.x", "foot.y", "foot.z", "glow", "deep", "lift", "melt", "place"],
     ]);
     const plain = unpacked(id);
     for (const [key, node, inner] of SAME) {
@@ -183,6 +184,25 @@ test.each(["a", "b"])("instance %s has the handles of what its parameters set", 
     const way = named(plain, "stem-1", "b");
     expect(named(DOCUMENT, id, "deep").spot.x).toBeCloseTo(way.spot.x, 6);
     expect(named(DOCUMENT, id, "deep").look.kind).toBe("arrow");
+});
+
+test.each([
+    ["lift", "head-1", "arrow"],
+    ["place", "tip-1", "place"],
+])("%s, which sets a part's place, has a handle where that part is", (key, node, look) => {
+    const plain = unpacked("a", []);
+    const at = PROJECTION.spotOf(toWorld(plain, node, [0, 0, 0]));
+    const handle = named(DOCUMENT, "a", key);
+    expect(handle.look.kind).toBe(look);
+    expect([handle.spot.x, handle.spot.y]).toEqual([
+        ...[expect.closeTo(at?.x ?? 0, 6), expect.closeTo(at?.y ?? 0, 6)],
+    ]);
+    const to = { x: handle.spot.x + 2, y: handle.spot.y - 40 };
+    const change = dragHandle(handle, PROJECTION, handle.spot, to, false);
+    const moved = apply(DOCUMENT, change ? [change.op] : [], SCHEMA);
+    const now = moved.ok ? named(moved.document, "a", key).spot : handle.spot;
+    const most = key === "place" ? 0.01 : 12;
+    expect(Math.hypot(now.x - to.x, now.y - to.y)).toBeLessThan(most);
 });
 
 test("200 random drags give an instance the number that the part itself would get", () => {

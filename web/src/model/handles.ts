@@ -243,6 +243,27 @@ const itself = (owner: Owner, param: Param, place: string): Dragged => ({
     part: null,
 });
 
+/* Where a node is, among what is around it: no row of the schema says so, as nodes have the gizmo. */
+const PLACE = "translation";
+const PLACE_HANDLE = ["x", "y", "z"].map((axis) => `${PLACE}.${axis}`).join();
+
+function placeOwner(schema: Schema, path: readonly SceneNode[]): Owner | null {
+    const node = path.at(-1);
+    if (!node) {
+        return null;
+    }
+    const around = [...path.slice(0, -1), { ...node, transform: {} }];
+    return {
+        params: schema.transform.map((row) =>
+            row.name === PLACE ? { ...row, handle: PLACE_HANDLE } : row,
+        ),
+        values: node.transform,
+        toWorld: (point) => outOf(around, point),
+        fromWorld: (point) => into(around, point),
+        joins: false,
+    };
+}
+
 /* What a parameter of an instance changes of a node within. */
 function within(
     document: SceneDocument,
@@ -251,11 +272,14 @@ function within(
     own: Dragged,
 ): Dragged | null {
     const setting = settingOf(schema, document, path, own.name);
-    if (setting?.target.group !== "params") {
+    if (setting === null) {
         return null;
     }
     const { target, reading } = setting;
-    const owner = ownerAt(document, schema, setting.path, reading);
+    const owner =
+        target.group === "params"
+            ? ownerAt(document, schema, setting.path, reading)
+            : placeOwner(schema, setting.path);
     const param = owner && findParam(owner.params, target.name);
     return param ? { ...own, owner, param, part: target.component } : null;
 }
