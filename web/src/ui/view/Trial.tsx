@@ -45,7 +45,7 @@ async function draw(
     );
 }
 
-export function Trial() {
+export default function Trial() {
     const editor = useEditor();
     const request = useView((view) => view.trial);
     const [shown, setShown] = useState<{ request: TrialRequest; address: string } | null>(null);

@@ -19,21 +19,22 @@ import { HandTools } from "./HandTools.tsx";
 import { watchHover } from "./hover.ts";
 import { Isolation } from "./Isolation.tsx";
 import { Marks } from "./Marks.tsx";
-import { Measured, MeasuredLine } from "./Measure.tsx";
 import { takeMaterials } from "./materials.ts";
 import { Outputs } from "./Outputs.tsx";
 import { Poster } from "./Poster.tsx";
 import { handsPage, pointerActions, type Under } from "./pointer.ts";
 import { BrokenPill, SoftwareChip, StatePill } from "./State.tsx";
 import { Strip } from "./Strip.tsx";
-import { Trial } from "./Trial.tsx";
 import "./view.css";
 
 const Drops = lazyPart(() => import("../drop/Drops.tsx"));
 const UnderMenu = lazyPart(() => import("./UnderMenu.tsx"));
+const Measured = lazyPart(() => import("./Measure.tsx"));
+const MeasuredLine = lazyPart(() => import("./MeasuredLine.tsx"));
 const Section = lazyPart(() => import("./Section.tsx"));
 const SectionHandle = lazyPart(() => import("./SectionHandle.tsx"));
 const StatisticsPill = lazyPart(() => import("./Statistics.tsx"));
+const Trial = lazyPart(() => import("./Trial.tsx"));
 
 export function View() {
     return (
