@@ -5,168 +5,26 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "renderer/sdf/patches.h"
-#include "renderer/sdf/polynomial.h"
+#include "shader_calls.h"
 
 /* The numbers of strings that #line gives to users' code. */
 enum { FIRST_CODE = 1000, FIRST_SHADER = 2000 };
-
-/* Surfaces that were never mixed are vec3 h (distance, leaf, slot); mixed ones are m. Where there
- * are shaders, o is the point in the space of the shape that h is of. */
-struct shader_writer {
-    FILE *out;
-    const struct field *field;
-    bool surface;
-    bool mixed[FIELD_SLOTS_MAX]; /* slot holds m, not h */
-};
-
-static void write_params(const struct shader_writer *w, const struct field_instruction *in,
-                         uint32_t vec4, int used)
-{
-    struct param_slot places[SDF_PARAMS_MAX];
-    const struct param *params = in->type->record.params;
-    int choice = 0;
-
-    field_layout(params, used, places);
-    for (size_t i = 0; params[i].name; i++) {
-        choice += params[i].type == PARAM_ENUM;
-    }
-    for (size_t i = 0; params[i].name; i++) {
-        if (params[i].type == PARAM_ENUM) {
-            fprintf(w->out, ", %u", in->choices >> (8 * --choice) & 0xff);
-        } else if (places[i].vec4 >= 0) {
-            fprintf(w->out, ", P(%u).%.*s", vec4 + (uint32_t)places[i].vec4, places[i].count,
-                    "xyzw" + places[i].component);
-        }
-    }
-}
-
-/* What a code declares, in the block that starts at vec4 `first` of what `base` begins to read. */
-static void write_places(const struct shader_writer *w, const struct field_code *code,
-                         const char *base, uint32_t first)
-{
-    for (int i = 0; i < code->place_count; i++) {
-        const struct param_slot *place = &code->places[i];
-        const uint32_t vec4 = first + (uint32_t)place->vec4;
-        fprintf(w->out, ", %s%u).%.*s", base, vec4, place->count, "xyzw" + place->component);
-    }
-}
-
-static void write_vec4s(const struct shader_writer *w, uint32_t first, int count)
-{
-    for (int i = 0; i < count; i++) {
-        fprintf(w->out, ", P(%u)", first + (uint32_t)i);
-    }
-}
-
-/* "d3", or the distance of the surface in slot 3. */
-static void write_distance(const struct shader_writer *w, uint16_t slot)
-{
-    if (!w->surface) {
-        fprintf(w->out, "d%u", slot);
-    } else {
-        fprintf(w->out, w->mixed[slot] ? "m%u.d" : "h%u.x", slot);
-    }
-}
-
-static void write_local(const struct shader_writer *w, const struct field_instruction *in)
-{
-    fprintf(w->out, "local(p%u", in->point);
-    write_vec4s(w, in->params, FIELD_MATRIX_VEC4S);
-    fprintf(w->out, ")");
-}
-
-/* Where a user's function is asked. */
-static void write_code_point(const struct shader_writer *w, const struct field_instruction *in)
-{
-    fprintf(w->out, "within(");
-    write_local(w, in);
-    fprintf(w->out, ", P(%u))", in->params + FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S);
-}
-
-/* Its answer, cut by its box; without a field that is d. */
-static void write_code(const struct shader_writer *w, const struct field_instruction *in)
-{
-    const uint32_t head = in->params + FIELD_MATRIX_VEC4S, cut = head + FIELD_HEAD_VEC4S;
-
-    fprintf(w->out, "unless_away(cut(");
-    if (w->field->codes) {
-        fprintf(w->out, "user_%u(", in->choices);
-        write_code_point(w, in);
-        write_places(w, &w->field->codes[in->choices], "P(", cut + FIELD_CUT_VEC4S);
-    } else {
-        fprintf(w->out, "code_distance(d");
-    }
-    fprintf(w->out, ") * P(%u).x, ", head);
-    write_local(w, in);
-    fprintf(w->out, ", P(%u)), P(%u).x)", cut, head + 1);
-}
-
-static void write_shape(struct shader_writer *w, const struct field_instruction *in)
-{
-    const uint32_t head = in->params + FIELD_MATRIX_VEC4S;
-
-    if (w->surface && w->field->shader_count > 0) {
-        fprintf(w->out, "o%u = ", in->a);
-        write_local(w, in);
-        fprintf(w->out, ";\n");
-    }
-    fprintf(w->out, w->surface ? "h%u = vec3(masked(" : "d%u = masked(", in->a);
-    if (in->choices == FIELD_POLYNOMIAL || in->choices == FIELD_PATCHES) {
-        fprintf(w->out, in->choices == FIELD_PATCHES ? "patches(" : "polynomial(");
-        write_local(w, in);
-        fprintf(w->out, ", %u) * P(%u).x", head + FIELD_HEAD_VEC4S + FIELD_CUT_VEC4S, head);
-    } else if (in->sdf) {
-        fprintf(w->out, "%s(", in->type->glsl);
-        write_local(w, in);
-        fprintf(w->out, in->type->kind == KIND_FLAT ? ".xy" : "");
-        write_params(w, in, head, FIELD_HEAD_NUMBERS);
-        fprintf(w->out, ") * P(%u).x", head);
-    } else {
-        write_code(w, in);
-    }
-    fprintf(w->out, ", P(%u).w, P(%u).x)", head, head + 1);
-    if (w->surface) {
-        fprintf(w->out, ", P(%u).yz)", head);
-    }
-    fprintf(w->out, ";\n");
-    w->mixed[in->a] = false;
-}
-
-static void write_call(const struct shader_writer *w, const struct field_instruction *in,
-                       const char *suffix)
-{
-    fprintf(w->out, "%s%s(", in->type->glsl, suffix);
-    write_distance(w, in->a);
-    if (in->op == FIELD_COMBINE) {
-        fprintf(w->out, ", ");
-        write_distance(w, in->b);
-    }
-    write_params(w, in, in->params, 0);
-    fprintf(w->out, ")");
-}
-
-/* "P(7).y" */
-static void write_number(const struct shader_writer *w, uint32_t index)
-{
-    fprintf(w->out, "P(%u).%c", index / 4, "xyzw"[index % 4]);
-}
 
 /* What two distances make. */
 static void write_both(const struct shader_writer *w, const struct field_instruction *in)
 {
     if (!in->seen) {
-        write_call(w, in, "");
+        shader_write_call(w, in, "");
         return;
     }
     fprintf(w->out, "sided(");
-    write_call(w, in, "");
+    shader_write_call(w, in, "");
     fprintf(w->out, ", ");
-    write_distance(w, in->a);
+    shader_write_distance(w, in->a);
     fprintf(w->out, ", ");
-    write_distance(w, in->b);
+    shader_write_distance(w, in->b);
     fprintf(w->out, ", ");
-    write_number(w, in->seen);
+    shader_write_number(w, in->seen);
     fprintf(w->out, ")");
 }
 
@@ -174,10 +32,10 @@ static void write_both(const struct shader_writer *w, const struct field_instruc
 static void write_share(const struct shader_writer *w, const struct field_instruction *in)
 {
     fprintf(w->out, in->seen ? "sided_share(" : "");
-    write_call(w, in, "_share");
+    shader_write_call(w, in, "_share");
     if (in->seen) {
         fprintf(w->out, ", ");
-        write_number(w, in->seen);
+        shader_write_number(w, in->seen);
         fprintf(w->out, ")");
     }
 }
@@ -230,29 +88,21 @@ static void write_combine(struct shader_writer *w, const struct field_instructio
 
 static void write_change(const struct shader_writer *w, const struct field_instruction *in)
 {
-    write_distance(w, in->a);
+    shader_write_distance(w, in->a);
     fprintf(w->out, " = ");
-    write_call(w, in, "");
+    shader_write_call(w, in, "");
     fprintf(w->out, ";\n");
 }
 
 static void write_after(const struct shader_writer *w, const struct field_instruction *in)
 {
-    write_distance(w, in->a);
+    shader_write_distance(w, in->a);
     fprintf(w->out, " = max(%s_after(", in->type->glsl);
-    write_distance(w, in->a);
+    shader_write_distance(w, in->a);
     fprintf(w->out, ", p%u", in->point);
-    write_vec4s(w, in->params, in->sdf->domain->vec4s);
+    shader_write_vec4s(w, in->params, in->sdf->domain->vec4s);
     fprintf(w->out, "), ");
-    write_number(w, in->seen);
-    fprintf(w->out, ");\n");
-}
-
-static void write_domain_call(const struct shader_writer *w, const struct field_instruction *in,
-                              const char *suffix, const char *extra)
-{
-    fprintf(w->out, "%s%s(p%u%s", in->type->glsl, suffix, in->point, extra);
-    write_vec4s(w, in->params, in->sdf->domain->vec4s);
+    shader_write_number(w, in->seen);
     fprintf(w->out, ");\n");
 }
 
@@ -263,9 +113,9 @@ static void write_loop(const struct shader_writer *w, const struct field_instruc
                        size_t name)
 {
     fprintf(w->out, "vec3 first%zu = ", name);
-    write_domain_call(w, in, "_first", "");
+    shader_write_domain_call(w, in, "_first", "");
     fprintf(w->out, "vec3 last%zu = ", name);
-    write_domain_call(w, in, "_last", "");
+    shader_write_domain_call(w, in, "_last", "");
     if (w->surface) {
         fprintf(w->out, "h%u = vec3(FAR, 0.0, 0.0);\nm%u = mixture_far();\n", in->a, in->a);
     } else {
@@ -278,7 +128,7 @@ static void write_loop(const struct shader_writer *w, const struct field_instruc
             name, name, name, name, name, SDF_REPEAT_CELLS_MAX, name, name, in->out);
     char cell[32];
     snprintf(cell, sizeof cell, ", cell%zu", name);
-    write_domain_call(w, in, "_cell", cell);
+    shader_write_domain_call(w, in, "_cell", cell);
 }
 
 static void write_loop_end(struct shader_writer *w, const struct field_instruction *in, size_t name)
@@ -337,7 +187,7 @@ static void write_instructions(struct shader_writer *w)
             write_empty(w, in->a);
             break;
         case FIELD_SHAPE:
-            write_shape(w, in);
+            shader_write_shape(w, in);
             break;
         case FIELD_COMBINE:
             write_combine(w, in);
@@ -347,12 +197,12 @@ static void write_instructions(struct shader_writer *w)
             break;
         case FIELD_TRANSFORM:
             fprintf(w->out, "p%u = ", in->out);
-            write_local(w, in);
+            shader_write_local(w, in);
             fprintf(w->out, ";\n");
             break;
         case FIELD_WARP:
             fprintf(w->out, "p%u = ", in->out);
-            write_domain_call(w, in, "", "");
+            shader_write_domain_call(w, in, "", "");
             break;
         case FIELD_AFTER:
             write_after(w, in);
@@ -397,27 +247,17 @@ static void write_apply_shader(const struct shader_writer *w)
         const bool whole = code_gives_surface(field->shaders[i].code);
         fprintf(w->out, "if (shader == %zu) {\nmaterial_set_%s(values, shade_%zu(at", i + 1,
                 whole ? "surface" : "color", i);
-        write_places(w, &field->shaders[i], "P_ANY(i + ", FIELD_MATERIAL_VEC4S);
+        shader_write_places(w, &field->shaders[i], "P_ANY(i + ", FIELD_MATERIAL_VEC4S);
         fprintf(w->out, whole ? "), unlit);\n}\n" : ").rgb, unlit);\n}\n");
     }
     fprintf(w->out, "}\n");
-}
-
-static void write_codes(const struct shader_writer *w, const struct field_code *codes, size_t count,
-                        const char *prefix, int first_source)
-{
-    for (size_t i = 0; i < count; i++) {
-        char name[32];
-        snprintf(name, sizeof name, "%s_%zu", prefix, i);
-        code_write(codes[i].code, name, first_source + (int)i, w->out);
-    }
 }
 
 /* The same functions serve map and surface, in one program or in two. */
 static void write_functions(const struct shader_writer *w)
 {
     fprintf(w->out, "#ifndef USER_FUNCTIONS\n#define USER_FUNCTIONS\n");
-    write_codes(w, w->field->codes, w->field->code_count, "user", FIRST_CODE);
+    shader_write_codes(w, w->field->codes, w->field->code_count, "user", FIRST_CODE);
     fprintf(w->out, "#endif\n");
 }
 
@@ -455,7 +295,7 @@ static void write_surface(struct shader_writer *w)
 
     fputs("#include \"field.glsl\"\n#include \"mixture.glsl\"\n", w->out);
     write_functions(w);
-    write_codes(w, field->shaders, field->shader_count, "shade", FIRST_SHADER);
+    shader_write_codes(w, field->shaders, field->shader_count, "shade", FIRST_SHADER);
     if (field->shader_count > 0) {
         write_apply_shader(w);
     }
@@ -501,47 +341,6 @@ char *shader_surface(const struct field *field)
     return write_text(field, true);
 }
 
-/* --- one instruction --- */
-
-static const struct sdf *find_sdf(const struct node_type *type)
-{
-    return type->kind == KIND_EQUATION  ? &sdf_polynomial
-           : type->kind == KIND_SURFACE ? &sdf_patches
-                                        : sdf_find(type);
-}
-
-bool shader_has_kernel(const struct node_type *type, enum shader_kernel kernel)
-{
-    const struct sdf *sdf = find_sdf(type);
-    const struct sdf_domain *domain = sdf ? sdf->domain : NULL;
-
-    switch (kernel) {
-    case KERNEL_SHAPE:
-        return sdf && sdf->shape;
-    case KERNEL_COMBINE:
-    case KERNEL_SHARE:
-        return sdf && sdf->combine;
-    case KERNEL_CHANGE:
-        return sdf && sdf->change;
-    case KERNEL_MAP:
-        return domain && domain->map;
-    case KERNEL_AFTER:
-        return domain && domain->after;
-    default:
-        return domain && domain->range;
-    }
-}
-
-void shader_code_kernel(FILE *out, const char *name, const struct field *field, uint32_t code)
-{
-    const struct field_instruction in = {.op = FIELD_SHAPE, .choices = code};
-    struct shader_writer w = {.out = out, .field = field};
-
-    fprintf(out, "float %s(vec3 p0)\n{\nfloat ", name);
-    write_shape(&w, &in);
-    fprintf(out, "return d0;\n}\n");
-}
-
 void shader_functions(FILE *out, const struct field *field)
 {
     const struct shader_writer w = {.out = out, .field = field};
@@ -556,70 +355,15 @@ void shader_ask(FILE *out, const struct field *field)
     if (field->shader_count == 0) {
         return;
     }
-    write_codes(&w, field->shaders, field->shader_count, "shade", FIRST_SHADER);
+    shader_write_codes(&w, field->shaders, field->shader_count, "shade", FIRST_SHADER);
     fputs("int ask_shader(int shader, int material, Shading at, out vec4 color, out CodeSurface s)"
           "\n{\n",
           out);
     for (size_t i = 0; i < field->shader_count; i++) {
         const bool whole = code_gives_surface(field->shaders[i].code);
         fprintf(out, "if (shader == %zu) {\n%s = shade_%zu(at", i + 1, whole ? "s" : "color", i);
-        write_places(&w, &field->shaders[i], "P_ANY(material + ", FIELD_MATERIAL_VEC4S);
+        shader_write_places(&w, &field->shaders[i], "P_ANY(material + ", FIELD_MATERIAL_VEC4S);
         fprintf(out, ");\nreturn %d;\n}\n", whole ? 2 : 1);
     }
     fputs("return 0;\n}\n", out);
-}
-
-void shader_code_kernels(FILE *out)
-{
-    const struct field none = {0};
-    const struct field_instruction in = {.op = FIELD_SHAPE};
-    struct shader_writer w = {.out = out, .field = &none};
-
-    fprintf(out, "vec3 kernel_code_point(vec3 p0)\n{\nreturn ");
-    write_code_point(&w, &in);
-    fprintf(out, ";\n}\nfloat kernel_code_shape(float d, vec3 p0)\n{\nfloat ");
-    write_shape(&w, &in);
-    fprintf(out, "return d0;\n}\n");
-}
-
-void shader_kernel(FILE *out, const char *name, const struct node_type *type, uint32_t choices,
-                   enum shader_kernel kernel)
-{
-    static const struct {
-        const char *result, *parameters, *suffix;
-    } rows[] = {
-        [KERNEL_SHAPE] = {"float", "vec3 p0", ""},
-        [KERNEL_COMBINE] = {"float", "float d0, float d1", ""},
-        [KERNEL_SHARE] = {"float", "float d0, float d1", "_share"},
-        [KERNEL_CHANGE] = {"float", "float d0", ""},
-        [KERNEL_MAP] = {"vec3", "vec3 p0", ""},
-        [KERNEL_FIRST] = {"vec3", "vec3 p0", "_first"},
-        [KERNEL_LAST] = {"vec3", "vec3 p0", "_last"},
-        [KERNEL_CELL] = {"vec3", "vec3 p0, vec3 cell", "_cell"},
-        [KERNEL_AFTER] = {"float", "float d0, vec3 p0", "_after"},
-    };
-    const struct field none = {0};
-    const struct sdf *sdf = find_sdf(type);
-    struct field_instruction in = {.type = type, .sdf = sdf, .b = 1, .choices = choices};
-    struct shader_writer w = {.out = out, .field = &none};
-    in.op = kernel == KERNEL_COMBINE || kernel == KERNEL_SHARE ? FIELD_COMBINE : FIELD_DISTANCE;
-    fprintf(out, "%s %s(%s)\n{\n", rows[kernel].result, name, rows[kernel].parameters);
-    if (kernel == KERNEL_SHAPE) {
-        fprintf(out, "float ");
-        write_shape(&w, &in);
-        fprintf(out, "return d0;\n}\n");
-        return;
-    }
-    fprintf(out, "return ");
-    if (kernel < KERNEL_MAP) {
-        write_call(&w, &in, rows[kernel].suffix);
-        fprintf(out, ";\n");
-    } else if (kernel == KERNEL_AFTER) {
-        fprintf(out, "%s_after(d0, p0", type->glsl);
-        write_vec4s(&w, 0, in.sdf->domain->vec4s);
-        fprintf(out, ");\n");
-    } else {
-        write_domain_call(&w, &in, rows[kernel].suffix, kernel == KERNEL_CELL ? ", cell" : "");
-    }
-    fprintf(out, "}\n");
 }
