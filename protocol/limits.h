@@ -18,6 +18,8 @@
     X(NODES, "nodes", 100000, "nodes", "nodes of a scene")                                         \
     X(COMPILED_SHAPES, "compiled_shapes", 512, "shapes",                                           \
       "visible shapes that shaders are compiled for; an interpreter draws scenes of more")         \
+    X(INTERPRETED_SHAPES, "interpreted_shapes", 10000, "shapes",                                   \
+      "visible shapes that shaders read as data; the engine draws scenes of more")                 \
     X(NODE_DEPTH, "node_depth", 64, "levels", "nesting of nodes")                                  \
     X(CHILDREN, "children", 10000, "nodes", "children of one node")                                \
     X(LIGHTS, "lights", 16, "lights", "lights of a scene")                                         \

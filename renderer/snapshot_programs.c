@@ -100,7 +100,7 @@ static bool is_interpreted(const struct renderer *renderer, const struct field *
 {
     const enum render_programs programs = renderer->programs_wanted;
 
-    return renderer->info.stage != RENDER_ENGINE && field->code_size <= LIMIT_COMPILED_CODE &&
+    return renderer->info.stage != RENDER_ENGINE && field_can_be_interpreted(field) &&
            (programs == PROGRAMS_INTERPRETED ||
             (programs == PROGRAMS_EITHER && (!field->user_code || !field_can_be_compiled(field))));
 }
@@ -163,6 +163,7 @@ uint64_t snapshot_structure(const struct renderer *renderer, const struct field 
                : compiled_key(renderer, field, scene);
 }
 
+/* NULL: it ended another process. */
 static struct program *get_program(struct renderer *renderer, const struct field *field,
                                    const struct scene *scene, bool interpreted)
 {
@@ -170,8 +171,11 @@ static struct program *get_program(struct renderer *renderer, const struct field
     const uint64_t key = interpreted ? interpreter_key(renderer, field, scene)
                                      : compiled_key(renderer, field, scene);
     const struct renderer_verdict *verdict = renderer_find_verdict(renderer, key, "");
-    struct program *program = program_cache_find(renderer->programs, key);
 
+    if (verdict && verdict->refused != ERROR_NONE) {
+        return NULL;
+    }
+    struct program *program = program_cache_find(renderer->programs, key);
     if (program) {
         renderer->counters.cache_hits++;
         return program;

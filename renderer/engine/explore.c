@@ -7,8 +7,8 @@
 #define EXPLORED_PART 512        /* nor one of such a part of a long program */
 #define EXPLORED_PARTS 16        /* of what is of interest: larger cubes are made anyway */
 #define EXPLORED_PIECES 64       /* at least so many cubes are shared among threads */
-#define EXPLORED_CUBES (1 << 21) /* with more cubes than each one's share of so many, */
-#define EXPLORED_WORDS (1 << 26) /* or words of tapes, there are no smaller ones */
+#define EXPLORED_CUBES (1 << 20) /* with more cubes than each one's share of so many, */
+#define EXPLORED_WORDS (1 << 25) /* or words of tapes, there are no smaller ones */
 
 struct expedition {
     const struct engine_program *program;

@@ -223,6 +223,8 @@ void field_unref(struct field *field); /* NULL: nothing */
 
 /* Whether it is small enough for compilers of shaders. */
 bool field_can_be_compiled(const struct field *field);
+/* The same for shaders that read it as data. */
+bool field_can_be_interpreted(const struct field *field);
 
 /* The id of the leaf with this number; NULL: none has it. */
 const char *field_leaf_id(const struct field *field, uint32_t number);

@@ -254,3 +254,9 @@ bool field_can_be_compiled(const struct field *field)
 {
     return field->shape_count <= LIMIT_COMPILED_SHAPES && field->code_size <= LIMIT_COMPILED_CODE;
 }
+
+bool field_can_be_interpreted(const struct field *field)
+{
+    return field->shape_count <= LIMIT_INTERPRETED_SHAPES &&
+           field->code_size <= LIMIT_COMPILED_CODE;
+}

@@ -136,7 +136,6 @@ static bool add_union(struct renderer *renderer, int count, const struct bench_e
     return ok;
 }
 
-/* NULL and no `err`: the device has not what it takes. */
 static cJSON *rows_of(const struct renderer_params *params, const struct way *way,
                       const struct bench_effort *effort, struct error *err)
 {
