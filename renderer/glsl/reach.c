@@ -21,11 +21,22 @@ struct item {
     bool kept;
 };
 
+/* A word by which an item is reached. */
+struct entry {
+    struct piece word;
+    size_t item;
+};
+
+/* In the order of their words. */
+struct entries {
+    struct entry *at;
+    size_t count;
+};
+
 struct items {
     struct item *at;
     size_t count;
-    struct item **named; /* in the order of their names */
-    size_t named_count;
+    struct entries names, declared; /* the latter: by a macro that has TYPE WORD( in it */
 };
 
 static bool is_letter(char c)
@@ -183,75 +194,97 @@ static struct items read_items(const char *text)
     return items;
 }
 
-static int by_name(const void *a, const void *b)
+static void add(struct entries *entries, struct piece word, size_t item)
 {
-    return compare((*(struct item *const *)a)->name, (*(struct item *const *)b)->name);
+    entries->at = memory_one_more(entries->at, entries->count, sizeof *entries->at);
+    entries->at[entries->count++] = (struct entry){word, item};
 }
 
-static void sort_names(struct items *items)
+static void add_declared(struct items *items, size_t number)
 {
-    items->named = memory_alloc(items->count, sizeof(struct item *));
+    const struct item *item = &items->at[number];
+    bool typed = false;
+
+    for (const char *at = item->name.end; at < item->text.end;) {
+        const struct piece token = next_token(at);
+
+        if (typed && *token.end == '(') {
+            add(&items->declared, token, number);
+        }
+        typed = is_letter(*token.begin) || (typed && *token.begin == ' ');
+        at = token.end;
+    }
+}
+
+static int by_word(const void *a, const void *b)
+{
+    const struct entry *x = a, *y = b;
+    const int order = compare(x->word, y->word);
+
+    return order != 0 ? order : (x->item > y->item) - (x->item < y->item);
+}
+
+static void sort(struct entries *entries)
+{
+    if (entries->count > 0) {
+        qsort(entries->at, entries->count, sizeof *entries->at, by_word);
+    }
+}
+
+static void index_items(struct items *items)
+{
     for (size_t i = 0; i < items->count; i++) {
         if (items->at[i].name.begin) {
-            items->named[items->named_count++] = &items->at[i];
+            add(&items->names, items->at[i].name, i);
+        }
+        if (items->at[i].name.begin && *items->at[i].text.begin == '#') {
+            add_declared(items, i);
         }
     }
-    qsort(items->named, items->named_count, sizeof(struct item *), by_name);
+    sort(&items->names);
+    sort(&items->declared);
 }
 
-/* The first with a name that does not come before the word. */
-static size_t find_name(const struct items *items, struct piece word)
+/* The first with a word that does not come before this one. */
+static const struct entry *find(const struct entries *entries, struct piece word)
 {
-    size_t first = 0, last = items->named_count;
+    size_t first = 0, last = entries->count;
 
     while (first < last) {
         const size_t middle = (first + last) / 2;
 
-        if (compare(items->named[middle]->name, word) < 0) {
+        if (compare(entries->at[middle].word, word) < 0) {
             first = middle + 1;
         } else {
             last = middle;
         }
     }
-    return first;
+    return entries->at + first;
 }
 
-/* Whether a macro has TYPE WORD( in it. */
-static bool declares(const struct item *item, struct piece word)
+static bool is_of(const struct entries *entries, const struct entry *entry, struct piece word)
 {
-    bool typed = false;
-
-    if (*item->text.begin != '#' || !item->name.begin) {
-        return false;
-    }
-    for (const char *at = item->name.end; at < item->text.end;) {
-        const struct piece token = next_token(at);
-
-        if (typed && *token.end == '(' && same(token, word)) {
-            return true;
-        }
-        typed = is_letter(*token.begin) || (typed && *token.begin == ' ');
-        at = token.end;
-    }
-    return false;
+    return entry < entries->at + entries->count && same(entry->word, word);
 }
 
 static void keep(struct items *items, struct item *item);
 
 static void reach(struct items *items, struct piece word)
 {
-    bool found = false;
+    const struct entry *entry = find(&items->names, word);
+    const bool found = is_of(&items->names, entry, word);
 
-    for (size_t i = find_name(items, word);
-         i < items->named_count && same(items->named[i]->name, word); i++) {
-        found = true;
-        if (!items->named[i]->kept) {
-            keep(items, items->named[i]);
+    for (; is_of(&items->names, entry, word); entry++) {
+        if (!items->at[entry->item].kept) {
+            keep(items, &items->at[entry->item]);
         }
     }
-    for (size_t i = 0; i < items->count && !found && *word.end == '('; i++) {
-        if (!items->at[i].kept && declares(&items->at[i], word)) {
-            reach(items, items->at[i].name);
+    if (found || *word.end != '(') {
+        return;
+    }
+    for (entry = find(&items->declared, word); is_of(&items->declared, entry, word); entry++) {
+        if (!items->at[entry->item].kept) {
+            reach(items, items->at[entry->item].name);
         }
     }
 }
@@ -365,7 +398,7 @@ void glsl_write_reached(FILE *out, char *text)
 
     struct items items = read_items(text);
 
-    sort_names(&items);
+    index_items(&items);
     for (size_t i = 0; i < items.count; i++) {
         struct item *item = &items.at[i];
 
@@ -378,6 +411,7 @@ void glsl_write_reached(FILE *out, char *text)
             put(out, &items.at[i]);
         }
     }
-    free(items.named);
+    free(items.names.at);
+    free(items.declared.at);
     free(items.at);
 }
