@@ -294,7 +294,7 @@ test('a scene that is too heavy for the engine is suspended, and others are draw
     heavy.root.children = Array.from({ length: 100 }, () => ({ type: 'field', params: { primitive: 'blob' } }));
     await ask(daemon, 'POST', '/v1/scenes?id=heavy', heavy);
     const live = await Live.open(daemon, 'heavy');
-    live.look({ width: 64, height: 48 });
+    live.look({ width: 16, height: 16 });
     const notice = await live.next('notice', { code: 'scene_left_out' });
     assert.ok(notice.measured > 10 && notice.limit === 10, `${notice.measured} of ${notice.limit}`);
     const light = await open(daemon, 'light', GOOD, SMALL);
