@@ -105,6 +105,19 @@ static void read_interlaced(png_structp png, png_infop info, const struct rows *
     }
 }
 
+static double linear(double s)
+{
+    return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
+}
+
+/* What pixels of 8 bits ask for is a part of it. */
+static void fill_table(float *table, bool wide)
+{
+    for (int i = 0; i < 65536; i += wide ? 1 : 257) {
+        table[i] = (float)linear(i / 65535.0);
+    }
+}
+
 /* In its own frame: what it changes before a longjmp is not looked at afterwards. */
 static bool read_pixels(png_structp png, png_infop info, const struct rows *rows)
 {
@@ -116,6 +129,7 @@ static bool read_pixels(png_structp png, png_infop info, const struct rows *rows
     png_read_info(png, info);
     set_form(png);
     png_read_update_info(png, info);
+    fill_table(rows->table, png_get_bit_depth(png, info) == 16);
     if (png_get_interlace_type(png, info) == PNG_INTERLACE_NONE) {
         read_plain(png, info, rows);
     } else {
@@ -123,11 +137,6 @@ static bool read_pixels(png_structp png, png_infop info, const struct rows *rows
     }
     png_read_end(png, NULL);
     return true;
-}
-
-static double linear(double s)
-{
-    return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
 }
 
 bool png_decode(const uint8_t *bytes, size_t length, struct shrink *out, struct error *err)
@@ -140,9 +149,6 @@ bool png_decode(const uint8_t *bytes, size_t length, struct shrink *out, struct 
                               memory_alloc(65536, sizeof(float))};
     bool ok;
 
-    for (int i = 0; i < 65536; i++) {
-        rows.table[i] = (float)linear(i / 65535.0);
-    }
     png_set_read_fn(png, &source, on_read);
     ok = read_pixels(png, info, &rows);
     png_destroy_read_struct(&png, &info, NULL);
