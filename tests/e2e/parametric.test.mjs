@@ -23,10 +23,11 @@ async function type(page, texts) {
 
 const UMBRELLA = { x: 's*t', y: 's', z: 't^2', s: [-1, 1], t: [-1.5, 1.5] };
 
-async function open(params) {
+/** `far`: times as far as usual, so that a picture that nobody looks at is drawn soon. */
+async function open(params, far = 1) {
     const id = await stage.scene({
         format: 'fieldcast/1',
-        camera: { position: [2, 1.5, 4] },
+        camera: { position: [2, 1.5, 4].map((x) => far * x) },
         lights: [{ id: 'sun', type: 'directional', intensity: 3 }],
         render: { samples: 1 },
         root: { id: 'root', type: 'union', children: [{ id: 'it', type: 'parametric', params }] },
@@ -71,7 +72,7 @@ test('a new one is seen at once, follows what is typed, and says where a text is
 });
 
 test('its equation takes its place in one edit, with what proves it', async () => {
-    const { id, page } = await open({ surface: { ...UMBRELLA, x: 'b*s*t' }, b: 2, thickness: 0.08 });
+    const { id, page } = await open({ surface: { ...UMBRELLA, x: 'b*s*t' }, b: 2, thickness: 0.08 }, 8);
     await status(page, 'Degree 3, 2 terms; proved to be exact.');
     const before = await ask(stage.daemon, 'GET', `/v1/scenes/${id}`);
     await page.getByRole('button', { name: 'Make implicit' }).click();
@@ -95,7 +96,7 @@ test('its equation takes its place in one edit, with what proves it', async () =
 });
 
 test('a curve and a degree that is too high say so', async () => {
-    const { page } = await open({ surface: { x: 's', y: 's^2', z: 's^3', s: [0, 1], t: [0, 1] } });
+    const { page } = await open({ surface: { x: 's', y: 's^2', z: 's^3', s: [0, 1], t: [0, 1] } }, 8);
     await status(page, /No equation: .*curve/);
     await type(page, { x: 's^9 + t', y: 't^9 - s*t', z: 's^8*t + t^2' });
     await status(page, /No equation: .*degree/);
