@@ -96,6 +96,22 @@ const struct param_buffer *upload_params(struct upload *upload, const struct gl 
     return params;
 }
 
+/* Of larger cubes, where they would be more than a texture has rows for. */
+static void make_tapes(const struct field *field, const struct gl *gl,
+                       const struct engine_program *program, struct engine_extent extent,
+                       const struct vocabulary *vocabulary, struct engine_tapes *out)
+{
+    GLint rows = 0;
+
+    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &rows);
+    engine_tapes_make(program, field->params, &extent, vocabulary, out);
+    while (out->count / TAPES_ROW > (size_t)rows && extent.least < extent.reach) {
+        engine_tapes_finish(out);
+        extent.least *= 4;
+        engine_tapes_make(program, field->params, &extent, vocabulary, out);
+    }
+}
+
 GLuint upload_tapes(struct upload *upload, const struct gl *gl,
                     const struct engine_program *program, const struct engine_extent *extent)
 {
@@ -105,7 +121,7 @@ GLuint upload_tapes(struct upload *upload, const struct gl *gl,
     if (!upload->tapes) {
         struct vocabulary vocabulary = vocabulary_of(upload->field);
         struct engine_tapes tapes;
-        engine_tapes_make(program, upload->field->params, extent, &vocabulary, &tapes);
+        make_tapes(upload->field, gl, program, *extent, &vocabulary, &tapes);
         upload->tapes = tape_texture_create(gl, (const uint32_t(*)[4])tapes.texels, tapes.count);
         engine_tapes_finish(&tapes);
         vocabulary_finish(&vocabulary);

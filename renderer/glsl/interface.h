@@ -57,6 +57,8 @@
     X(TAPE_GRID_BITS, 24)                                                                          \
     X(TAPE_ORIGIN, 0x555555) /* where 0, 0, 0 is on the grid */                                    \
     X(TAPE_BOUND, 24)        /* operations that take longer than more steps by a bound */          \
+    X(TAPE_AHEAD, 6)         /* vec4s of a shape that are read ahead, */                           \
+    X(TAPE_AHEAD_OTHERS, 4)  /* and of other operations: all of theirs */                          \
     X(TAPE_SPACES, 2)        /* the texel of the first space */                                    \
     X(TAPE_SPACE_TEXELS, 2)
 #define TAPE_OPS(X)                                                                                \

@@ -9,7 +9,6 @@ layout(binding = UNIT_TAPES) uniform usampler2D tapes;
 
 int own = 0;
 /* The first of them are there before the operation is known: shapes have their places in space. */
-#define TAPE_AHEAD 6
 vec4 ahead[TAPE_AHEAD];
 
 #undef P

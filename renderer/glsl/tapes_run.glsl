@@ -141,7 +141,7 @@ float run(int tape, int count, vec3 p0, const bool surfaces, out Mixture result)
         int a = int(operation.y & 0xffffu), b = int(operation.y >> 16);
         int point = int(operation.z & 0xffffu), to = int(operation.z >> 16);
         own = int(operation.w);
-        int needed = op == TAPE_OP_SHAPE ? TAPE_AHEAD : TAPE_AHEAD / 2;
+        int needed = op == TAPE_OP_SHAPE ? TAPE_AHEAD : TAPE_AHEAD_OTHERS;
         for (int k = 0; k < TAPE_AHEAD; k++) {
             if (k < needed) {
                 ahead[k] = P_ANY(own + k);

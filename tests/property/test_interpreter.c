@@ -70,6 +70,13 @@ enum {
 #define SMALL                                                                                      \
     HEAD "'root':{'type':'intersection','children':[{'id':'hides','type':'sphere'},"               \
          "{'type':'box'}]}}"
+/* Copies that reach beyond their cells, behind a shape. */
+#define REACHING                                                                                   \
+    "{'format':'fieldcast/1','camera':{'position':[4,1.5,2],'target':[0,0,0]},"                    \
+    "'root':{'type':'union','children':[{'type':'sphere',"                                         \
+    "'transform':{'translation':[0,1.5,0],'scale':[0.3,0.3,0.3]}},"                                \
+    "{'type':'repeat','params':{'spacing':[1,1,0.5],'count':[1,1,6]},'children':["                 \
+    "{'type':'box','transform':{'rotation':[50,0,0],'scale':[0.5,0.12,1.2]}}]}]}}"
 #define CODE                                                                                       \
     HEAD "'shaders':{'rings':{'code':'vec3 shade(FragmentProperties f) {"                          \
          " return vec3(step(0.0, sin(20.0 * f.object_position.y)), 0.4, 0.2); }'}},"               \
@@ -172,6 +179,7 @@ static void operations_are_the_engine_s(void **state)
     (void)state;
     is_the_engine_s(KINDS, RENDER_COMPUTE);
     is_the_engine_s(KINDS, RENDER_FRAGMENT);
+    is_the_engine_s(REACHING, RENDER_COMPUTE);
 }
 
 /* An operation takes the side that is left. */
@@ -259,6 +267,23 @@ static void edits_of_many_shapes_compile_nothing(void **state)
     resident_destroy(both[1]);
 }
 
+/* What run() reads ahead for all but shapes. */
+static void numbers_of_operations_are_read_ahead(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < node_type_count(); i++) {
+        const struct node_type *type = node_type_at(i);
+        const struct sdf *sdf = sdf_find(type);
+        struct param_slot places[SDF_PARAMS_MAX];
+        if (sdf && sdf->domain) {
+            assert_in_range(sdf->domain->vec4s, 0, TAPE_AHEAD_OTHERS);
+        }
+        if (sdf && (sdf->combine || sdf->change)) {
+            assert_in_range(field_layout(type->record.params, 0, places), 0, TAPE_AHEAD_OTHERS);
+        }
+    }
+}
+
 /* An interpreter begins; what is compiled goes on; both read new numbers. */
 static void either_program_draws_the_same(void **state)
 {
@@ -342,6 +367,7 @@ int main(void)
         cmocka_unit_test(users_code_is_the_engine_s),
         cmocka_unit_test(other_pictures_are_noticed),
         cmocka_unit_test(edits_of_many_shapes_compile_nothing),
+        cmocka_unit_test(numbers_of_operations_are_read_ahead),
         cmocka_unit_test(either_program_draws_the_same),
         cmocka_unit_test(tapes_are_a_small_part_of_the_scene),
         cmocka_unit_test(everything_is_the_engine_s),
