@@ -20,10 +20,10 @@ struct vocabulary {
     int points, distances, loops; /* room for slots and nested loops, rounded up */
 };
 
-/* Of its own; `field`: whose codes its texts contain. */
-uint64_t vocabulary_hash(const struct vocabulary *vocabulary, const struct field *field);
 struct vocabulary vocabulary_of(const struct field *field);
 void vocabulary_finish(struct vocabulary *vocabulary);
+/* Equal for equal texts of an interpreter; `field`: whose codes these contain. */
+uint64_t vocabulary_hash(const struct vocabulary *vocabulary, const struct field *field);
 /* The index of the kind of an instruction; 0 where it needs none. */
 size_t vocabulary_find(const struct vocabulary *vocabulary, const struct vocabulary_kind *kind);
 

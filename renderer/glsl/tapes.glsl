@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A field as data: operations, and cubes of space with the operations that matter in each
- * (renderer/engine/tapes.h has the layout). An operation's numbers begin at vec4 `own`. */
+ * (TAPE_NUMBERS in interface.h has the layout). An operation's numbers begin at vec4 `own`. */
 
 #include "params.glsl"
 
@@ -8,7 +8,7 @@ layout(binding = UNIT_TAPES) uniform usampler2D tapes;
 #define TAPE_TEXEL(i) texelFetch(tapes, ivec2((i) & (TAPES_ROW - 1), (i) >> TAPES_ROW_BITS), 0)
 
 int own = 0;
-/* The first of them are there before the operation is known: shapes have their places in space. */
+/* The first of them, read once for whichever kernel runs: how many is known by the operation. */
 vec4 ahead[TAPE_AHEAD];
 
 #undef P

@@ -182,16 +182,21 @@ static void operations_are_the_engine_s(void **state)
     is_the_engine_s(REACHING, RENDER_COMPUTE);
 }
 
+static void open_both(struct resident *both[2], const char *text)
+{
+    for (int i = 0; i < 2; i++) {
+        renderer_use_stage(renderer, i ? RENDER_COMPUTE : RENDER_ENGINE);
+        both[i] = resident_create(renderer, drawing_parse(text), 1);
+    }
+}
+
 /* An operation takes the side that is left. */
 static void what_is_hidden_has_no_effect(void **state)
 {
     struct resident *both[2];
 
     (void)state;
-    for (int i = 0; i < 2; i++) {
-        renderer_use_stage(renderer, i ? RENDER_COMPUTE : RENDER_ENGINE);
-        both[i] = resident_create(renderer, drawing_parse(SMALL), 1);
-    }
+    open_both(both, SMALL);
     follow(both, "[{'op':'set','at':'/nodes/hides/visible','value':false}]");
     resident_destroy(both[0]);
     resident_destroy(both[1]);
@@ -291,10 +296,7 @@ static void either_program_draws_the_same(void **state)
 
     (void)state;
     renderer_use_programs(renderer, PROGRAMS_EITHER);
-    for (int i = 0; i < 2; i++) {
-        renderer_use_stage(renderer, i ? RENDER_COMPUTE : RENDER_ENGINE);
-        both[i] = resident_create(renderer, drawing_parse(SMALL), 1);
-    }
+    open_both(both, SMALL);
     follow(both, "[{'op':'set','at':'/nodes/hides/params/radius','value':0.9}]");
     while (renderer_poll(renderer, POLL_MS)) {
     }
