@@ -35,7 +35,12 @@ const PAIRS = [
     ['light 1440', 'dark 1024'],
     ['light 1024', 'dark 390'],
 ];
-const isTaken = (i, variant) => process.env.SCREENS_ALL === '1' || PAIRS[i % PAIRS.length].includes(nameOf(variant));
+function isTaken(i, variant) {
+    if (STATES[i].narrow) {
+        return variant.touch === true;
+    }
+    return process.env.SCREENS_ALL === '1' || PAIRS[i % PAIRS.length].includes(nameOf(variant));
+}
 
 /** What one page goes through after another; a state that is alone has a page of its own. */
 function coursesOf(variant) {

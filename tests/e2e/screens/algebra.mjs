@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // States of what finds equations: parametric surfaces, Groebner bases.
-import { umbrella } from './scene.mjs';
+import { implicit, parametric, umbrella } from './scene.mjs';
+import { bottom, select } from './ways.mjs';
 
 const proved = (page) => page.locator('.surface-badge:not([data-proof="busy"])').waitFor();
 
@@ -21,8 +22,7 @@ async function make(page, example, state = 'done') {
     await page.locator(`[role=status][data-state=${state}]`).waitFor();
 }
 
-/** `select`: a way of states.mjs. */
-export const algebraStates = ({ select }) => [
+export const ALGEBRA = [
     ['equation of a parametric surface', async (page) => {
         await select(page, 'umbrella');
         await proved(page);
@@ -33,9 +33,34 @@ export const algebraStates = ({ select }) => [
     }, { scene: umbrella('x^2 = y^2*z + 0.1') }],
     ['parametric surface, dialog', async (page) => {
         await select(page, 'umbrella');
-        await page.getByRole('button', { name: 'Change…' }).click();
+        await page.getByRole('button', { name: 'Change …' }).click();
         await page.getByText('proved to be exact').waitFor();
     }, { scene: umbrella('x^2 = y^2*z') }],
+    ['equation, the patch alone', async (page) => {
+        await select(page, 'umbrella');
+        await proved(page);
+        await page.getByRole('button', { name: 'Keep only the patch' }).scrollIntoViewIfNeeded();
+    }, { scene: umbrella('x^2 = y^2*z') }],
+    ['equation, wrong', async (page) => {
+        await select(page, 'equation');
+        await page.getByRole('textbox', { name: 'equation' }).fill('x^2 + y^2 + z^2 = (1');
+        await page.locator('.equation-mark').waitFor();
+    }, { scene: implicit({ equation: 'x^2 + y^2 + z^2 = 1' }) }],
+    ['quality, a pole', async (page) => {
+        await select(page, 'equation');
+        await page.locator('.quality-badge').hover();
+        await page.locator('.tip').waitFor();
+    }, { scene: implicit({ equation: '1/x = y + z' }) }],
+    ['parametric surface, sampled', async (page) => {
+        await select(page, 'surface');
+        await page.locator('.quality-badge').waitFor();
+        await page.locator('.patches-equation').waitFor();
+        await bottom(page);
+    }, { scene: parametric({ x: 'u*cos(4*v)', y: 'v', z: 'u*sin(4*v)', u: [-0.7, 0.7], v: [-1, 1] }) }],
+    ['parametric surface, with an equation', async (page) => {
+        await select(page, 'surface');
+        await page.getByRole('button', { name: 'Make implicit' }).waitFor();
+    }, { scene: parametric({ x: 's', y: 's^2 - t^2', z: 't', s: [-1, 1], t: [-1, 1] }) }],
     ['workbench', workbench],
     ['workbench, elimination', (page) => make(page, /Sphere/)],
     ['workbench, division', (page) => make(page, /Twisted cubic/)],

@@ -24,6 +24,11 @@ function tools({ SLACK, LAP }) {
         right: Math.min(a.right, b.right),
         bottom: Math.min(a.bottom, b.bottom),
     });
+    /* Of discs. */
+    const apart = (a, b) => {
+        const [dx, dy] = [a.left + a.right - b.left - b.right, a.top + a.bottom - b.top - b.bottom];
+        return Math.hypot(dx, dy) > a.right - a.left + b.right - b.left - 2 * LAP;
+    };
     const exceeds = ({ left, top, right, bottom }, by) => right - left > by && bottom - top > by;
     return {
         SLACK,
@@ -39,7 +44,7 @@ function tools({ SLACK, LAP }) {
             !one.closest('.unseen, [data-base-ui-focus-guard]') &&
             one.checkVisibility({ opacityProperty: true, visibilityProperty: true }),
         isEmpty: (box) => !exceeds(box, SLACK),
-        overlap: (a, b) => exceeds(intersect(a, b), LAP),
+        overlap: (a, b) => exceeds(intersect(a, b), LAP) && !(a.round && b.round && apart(a, b)),
         scrolls: (value) => value === 'auto' || value === 'scroll',
         hides: (value) => value === 'hidden' || value === 'clip',
         isOutside: ({ left, top, right, bottom }) =>
@@ -169,7 +174,8 @@ function lostControls({ parentsOf, nameOf, isSeen, isEmpty, overlap, scrolls, is
     const found = [];
     const parts = [];
     for (const one of [...document.querySelectorAll(CONTROLS)].filter(isSeen)) {
-        const box = shownPart(one);
+        const round = getComputedStyle(one).borderRadius === '50%';
+        const box = Object.assign(shownPart(one), { round });
         if (modal && layerOf(one) === document.body) {
             continue;
         }

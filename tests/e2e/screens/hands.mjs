@@ -3,6 +3,7 @@
 // rows of states.mjs.
 import { until } from '../../support/daemon.mjs';
 import { picture } from '../stage.mjs';
+import { middle, resource, select } from './ways.mjs';
 
 const final = (page) => page.locator('[data-testid=state][data-state=final]').waitFor();
 
@@ -34,8 +35,7 @@ async function command(page, words) {
 
 const up = (page) => page.mouse.up();
 
-/** `select`, `middle`, `resource`: ways of states.mjs. */
-export const handStates = ({ select, middle, resource }) => [
+export const HANDS = [
     ['gizmo and handles', async (page) => {
         await select(page, 'ball');
         await final(page);
@@ -116,7 +116,7 @@ export const handStates = ({ select, middle, resource }) => [
     ['icons of lights and camera', async (page) => {
         await picture(page).focus();
         await page.keyboard.press('Numpad3');
-        for (let i = 0; i < 12; i += 1) {
+        for (let i = 0; i < 24; i += 1) {
             await page.keyboard.press('-');
         }
         await page.locator('[data-mark="camera"]').waitFor();

@@ -165,25 +165,28 @@ export const EMPTY = {
     root: { id: 'root', type: 'union', children: [] },
 };
 
-/** Whitney's umbrella, beside the surface that it is of: with this equation or another. */
-export const umbrella = (equation) => ({
+const alone = (name, node) => ({
     ...EMPTY,
-    name: 'Umbrella',
+    name,
     camera: { ...STUDIO.camera, position: [2, 1.6, 3.3], fov: 50 },
     lights: STUDIO.lights,
-    root: {
-        id: 'root',
-        type: 'union',
-        children: [
-            {
-                id: 'umbrella',
-                type: 'implicit',
-                params: {
-                    equation,
-                    mode: 'sheet',
-                    parametric: { x: 's*t', y: 's', z: 't^2', s: [-1, 1], t: [-1.5, 1.5] },
-                },
-            },
-        ],
-    },
+    root: { id: 'root', type: 'union', children: [node] },
 });
+
+/** A surface by an equation: `params` of an implicit. */
+export const implicit = (params) => alone('Equation', { id: 'equation', type: 'implicit', params });
+
+/** A surface by three expressions. */
+export const parametric = (surface) => alone('Surface', { id: 'surface', type: 'parametric', params: { surface } });
+
+/** Whitney's umbrella, beside the surface that it is of: with this equation or another. */
+export const umbrella = (equation) =>
+    alone('Umbrella', {
+        id: 'umbrella',
+        type: 'implicit',
+        params: {
+            equation,
+            mode: 'sheet',
+            parametric: { x: 's*t', y: 's', z: 't^2', s: [-1, 1], t: [-1.5, 1.5] },
+        },
+    });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // States of the scene as text, and of files that come into it: rows of states.mjs.
 import { picture } from '../stage.mjs';
+import { graph, select, tab } from './ways.mjs';
 
 const textLine = (page, text) => page.getByTestId('text').locator('.cm-line').filter({ hasText: text }).first();
 
@@ -18,8 +19,7 @@ async function mistype(page, line, typed) {
     await page.locator('.text-faults').waitFor();
 }
 
-/** `select`, `tab` and `graph`: ways of states.mjs. */
-export const textStates = ({ select, tab, graph }) => [
+export const TEXT = [
     ['text', text],
     ['text, a node', async (page) => {
         await text(page);
