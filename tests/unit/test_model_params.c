@@ -142,6 +142,33 @@ static void rows_convert_instances(void **state)
     edits_apply(scene, "[{'op':'remove','at':'/nodes/x'},{'op':'remove','at':'/models/more'}]");
 }
 
+/* Rows of pawn, with another range of the first. */
+#define NARROWED(range)                                                                            \
+    "{'op':'set','at':'/models/pawn/params','value':["                                             \
+    "{'name':'high','type':'float','sets':'/nodes/body/params/size.y','range':" range "}]}"
+
+/* "both" of pair sets "high" of its instance of pawn. */
+static void a_range_narrows(void **state)
+{
+    (void)state;
+    const char *outer = "{'op':'set','at':'/models/pair/params','value':[{'name':'both',"
+                        "'type':'float','sets':'/nodes/first/params/high','range':[1,1.5]}]}";
+    char both[512];
+
+    edits_apply(scene, "[{'op':'set','at':'/nodes/first/params/high','value':1.8},"
+                       "{'op':'set','at':'/nodes/c/params/model','value':'pair'},"
+                       "{'op':'set','at':'/nodes/c/params/both','value':1.7}]");
+    edits_assert_fails(scene, "[" NARROWED("[0.5,1.5]") "]", ERROR_CONFLICT, "/models/pawn/params",
+                       "the parameter \"both\" of /models/pair sets /nodes/first/params/high");
+    assert_number("first", "high", 1.8);
+    assert_number("c", "both", 1.7);
+    snprintf(both, sizeof both, "[%s,%s]", outer, NARROWED("[0.5,1.5]"));
+    edits_apply(scene, both);
+    assert_false(record_is_set(&scene_find(scene, "a")->params, "high"));
+    assert_false(record_is_set(&scene_find(scene, "first")->params, "high"));
+    assert_false(record_is_set(&scene_find(scene, "c")->params, "both"));
+}
+
 /* A document, and where it is wrong. */
 static void assert_refused(const char *rows, const char *place, const char *message)
 {
@@ -252,6 +279,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(targets, set_up, tear_down),
         cmocka_unit_test_setup_teardown(instances_set_them, set_up, tear_down),
         cmocka_unit_test_setup_teardown(rows_convert_instances, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_range_narrows, set_up, tear_down),
         cmocka_unit_test_setup_teardown(wrong_rows, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_is_set_stays, set_up, tear_down),
     };
