@@ -61,7 +61,7 @@ test('what is wrong stands under its letter, and is mended', async () => {
     await polynomials().fill('x^2 - y\ny*(x');
     await make();
     await state('failed');
-    await workbench().getByText(/^generators: /).waitFor();
+    await workbench().getByText(/^expected "\)"/).waitFor();
     await workbench().locator('.equation-mark').waitFor();
     await polynomials().fill('x^2 - y\ny*(x)');
     await make();

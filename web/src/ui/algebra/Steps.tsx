@@ -22,6 +22,7 @@ export function Steps({ steps }: { steps: readonly Step[] }) {
                 ))}
             </ul>
             <Graph steps={steps} />
+            <p>{TEXTS.graph}</p>
             <table className="workbench-steps">
                 <thead>
                     <tr>
@@ -80,8 +81,7 @@ function Graph({ steps }: { steps: readonly Step[] }) {
             className="workbench-graph"
             viewBox={`0 -1 ${WIDTH} ${HEIGHT + 2}`}
             preserveAspectRatio="none"
-            role="img"
-            aria-label={TEXTS.graph}
+            aria-hidden="true"
         >
             <polyline points={points.join(" ")} vectorEffect="non-scaling-stroke" />
         </svg>

@@ -69,6 +69,12 @@ function Sheet({ asked, onChange }: Props) {
     );
 }
 
+/* The polynomials are marked themselves; other fields are named. */
+function sayWhere(place: string, message: string): string {
+    const name = place.replace("/", "");
+    return name === "" || name === "generators" ? message : `${name}: ${message}`;
+}
+
 function State({ basis }: { basis: Basis | null }) {
     const waiting = basis?.steps.at(-1)?.waiting ?? 0;
     const failure = basis?.failure ?? null;
@@ -76,7 +82,7 @@ function State({ basis }: { basis: Basis | null }) {
         waiting: TEXTS.waiting,
         running: fill(TEXTS.running, { count: waiting }),
         done: fill(TEXTS.done, { ms: Math.max(1, Math.round(basis?.answer?.ms ?? 0)) }),
-        failed: failure ? `${failure.place.replace("/", "")}: ${failure.message}` : "",
+        failed: failure ? sayWhere(failure.place, failure.message) : "",
         cancelled: TEXTS.cancelled,
     };
     return (

@@ -10,7 +10,7 @@ export const TEXTS = {
     basis: "Reduced basis",
     elimination: "Elimination ideal",
     principal: "One generator: the ideal is principal.",
-    notPrincipal: "It has not one generator.",
+    notPrincipal: "It has more than one generator.",
     nothing: "Only 0 is free of these letters.",
     quotients: "Quotients",
     rest: "Rest",
@@ -33,7 +33,7 @@ export const TEXTS = {
 
 export const OUTCOME_TEXTS = {
     added: "added",
-    zero: "reduces to 0",
+    zero: "reduced to 0",
     coprime: "left out: coprime",
     chain: "left out: chain",
 } as const;
