@@ -99,7 +99,7 @@ test('the method is chosen among those of the schema', async () => {
     const { page } = await open(UMBRELLA);
     const asked = [];
     page.on('request', (request) => request.method() === 'POST' && request.url().includes('/implicitize') && asked.push(request.postDataJSON().method));
-    await page.getByRole('button', { name: 'Change…' }).click();
+    await page.getByRole('button', { name: 'Change …' }).click();
     const dialog = page.getByRole('dialog', { name: 'Equation of a parametric surface' });
     const found = () => dialog.getByText('Degree 3, 2 terms; proved to be exact.').waitFor();
     await found();
@@ -110,7 +110,7 @@ test('the method is chosen among those of the schema', async () => {
     for (const choice of choices.slice(1)) {
         await method.click();
         await page.getByRole('option', { name: choice }).click();
-        await dialog.getByText('Looking for the equation…').waitFor();
+        await dialog.getByText('Looking for the equation …').waitFor();
         await found();
     }
     assert.deepEqual(asked, [undefined, ...choices.slice(1)]);
@@ -145,7 +145,7 @@ test('a document with a false certificate is drawn and marked', async () => {
 
 test('a certificate can be changed in the same dialog, and taken away', async () => {
     const { id, page } = await open(UMBRELLA);
-    await page.getByRole('button', { name: 'Change…' }).click();
+    await page.getByRole('button', { name: 'Change …' }).click();
     const dialog = page.getByRole('dialog', { name: 'Equation of a parametric surface' });
     assert.equal(await dialog.getByRole('textbox', { name: 'x =' }).inputValue(), 's*t');
     await dialog.getByRole('textbox', { name: 'x =' }).fill('s*cos(t)');
@@ -197,13 +197,13 @@ test('a search tells its steps, and is cancelled', async () => {
     const long = (i) => `0.${'739184620583'.repeat(2).slice(i)}7`;
     const { page } = await open(UMBRELLA);
     await told(page, 'Verified');
-    await page.getByRole('button', { name: 'Change…' }).click();
+    await page.getByRole('button', { name: 'Change …' }).click();
     const dialog = page.getByRole('dialog', { name: 'Equation of a parametric surface' });
     await dialog.getByText('The patch covers').waitFor();
     await dialog.getByRole('textbox', { name: 'x =' }).fill(`s^3*t^3+${long(0)}*s-2t^2+${long(1)}s^2*t`);
     await dialog.getByRole('textbox', { name: 'y =' }).fill(`2s^3*t^3+${long(2)}s^3-t+${long(3)}s*t-${long(4)}t^3*s^2`);
     await dialog.getByRole('textbox', { name: 'z =' }).fill(`s^3*t^3-${long(5)}t^3+s^2+${long(6)}s*t^2`);
-    await dialog.getByText(/Looking for the equation… prime \d+: \d+ bits \(\d+\.\d s\)/).waitFor();
+    await dialog.getByText(/Looking for the equation … prime \d+: \d+ bits \(\d+\.\d s\)/).waitFor();
     assert.equal(algebraOf(stage.daemon).length, 1);
     await dialog.getByRole('button', { name: 'Cancel' }).click();
     await dialog.getByText('Cancelled.').waitFor();

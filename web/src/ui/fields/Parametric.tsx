@@ -32,11 +32,13 @@ interface Props {
     open: boolean;
     /* What the node has; null: nothing yet. */
     start: Surface | null;
+    /* Of the box that clips it; null: it has none, and how much of it is covered is not told. */
+    size: readonly number[] | null;
     onTake: (equation: string, surface: SurfaceValue) => void;
     onClose: () => void;
 }
 
-export function FromParametric({ open, start, onTake, onClose }: Props) {
+export function FromParametric({ open, start, size, onTake, onClose }: Props) {
     const [draft, setDraft] = useState<Surface | null>(null);
     return (
         <Dialog
@@ -48,6 +50,7 @@ export function FromParametric({ open, start, onTake, onClose }: Props) {
         >
             <Sheet
                 surface={draft ?? start ?? FIRST}
+                size={size}
                 onChange={setDraft}
                 onTake={(equation, surface) => {
                     setDraft(null);
@@ -60,15 +63,16 @@ export function FromParametric({ open, start, onTake, onClose }: Props) {
 
 interface SheetProps {
     surface: Surface;
+    size: readonly number[] | null;
     onChange: (surface: Surface) => void;
     onTake: (equation: string, surface: SurfaceValue) => void;
 }
 
-function Sheet({ surface, onChange, onTake }: SheetProps) {
+function Sheet({ surface, size, onChange, onTake }: SheetProps) {
     const { texts } = surface;
     /* null: as the server does. */
     const [method, setMethod] = useState<string | null>(null);
-    const search = useEquation(texts, method, rangesOf(surface));
+    const search = useEquation(texts, method, size === null ? {} : rangesOf(surface), size);
     const { found } = search;
     const equation = found === null ? "" : `${found.equation} = 0`;
     /* The fields of the letters stay while the server looks. */
@@ -138,7 +142,7 @@ function Method({ value, onChange }: MethodProps) {
     }
     return (
         <div className="parametric-method">
-            <span>{paramTitle(param)}</span>
+            <span className="form-label">{paramTitle(param)}</span>
             <Select
                 value={value ?? String(param.default)}
                 label={paramTitle(param)}

@@ -188,7 +188,13 @@ function Equation({ node, place, surface, letters }: EquationProps) {
             </p>
             <CancelSearch search={search} />
             {found?.drawable === true && (
-                <Button onClick={() => void make(found.equation)}>{surfaceText("make")}</Button>
+                <Button
+                    look="outline"
+                    className="equation-from"
+                    onClick={() => void make(found.equation)}
+                >
+                    {surfaceText("make")}
+                </Button>
             )}
         </div>
     );

@@ -8,7 +8,7 @@ import { type Proof, verify } from "../../link/surfaceRest.ts";
 import { paramAt } from "../../model/document.ts";
 import type { JsonObject } from "../../model/json.ts";
 import { multiEdit } from "../../model/multiEdit.ts";
-import type { Value } from "../../model/schema.ts";
+import { type Value, valueIn } from "../../model/schema.ts";
 import { readSurface, type Surface, type SurfaceValue } from "../../model/surface.ts";
 import { keepPatch } from "../../model/trim.ts";
 import { useDocument, useEditor } from "../state.ts";
@@ -46,6 +46,7 @@ function Proved({ label, value, place, mixed }: Props) {
     const { link, stores } = useEditor();
     const [open, setOpen] = useState(false);
     const surface = readSurface(value);
+    const size = useClipSize(place);
     const take = (equation: string, found: SurfaceValue): void => {
         const { schema, document } = stores.document.getState();
         const { selection } = stores.view.getState();
@@ -67,18 +68,31 @@ function Proved({ label, value, place, mixed }: Props) {
             {surface !== null && !mixed && <Summary surface={surface} />}
             <div className="surface-foot">
                 {surface !== null && !mixed && <Badge place={place} />}
-                <Button className="equation-from" onClick={() => setOpen(true)}>
+                <Button look="outline" className="equation-from" onClick={() => setOpen(true)}>
                     {surfaceText(surface === null ? "open" : "change")}
                 </Button>
             </div>
             <FromParametric
                 open={open}
                 start={surface}
+                size={size}
                 onTake={take}
                 onClose={() => setOpen(false)}
             />
         </div>
     );
+}
+
+/* Of the box that clips the node; null: a ball does. */
+function useClipSize(place: string): readonly number[] | null {
+    const text = useDocument(({ schema, document }) => {
+        const of = (name: string) => {
+            const row = document && paramAt(schema, document, beside(place, name));
+            return row ? valueIn(row.values, row.param) : null;
+        };
+        return JSON.stringify(of("clip") === "box" ? of("size") : null);
+    });
+    return useMemo(() => JSON.parse(text), [text]);
 }
 
 function Summary({ surface }: { surface: Surface }) {
@@ -156,7 +170,11 @@ function Trim({ place }: { place: string }) {
         JSON.stringify(document && keepPatch(schema, document, node)),
     );
     return ops === "null" ? null : (
-        <Button onClick={() => link.edit(JSON.parse(ops), { label: surfaceText("trimEdit") })}>
+        <Button
+            look="outline"
+            className="equation-from"
+            onClick={() => link.edit(JSON.parse(ops), { label: surfaceText("trimEdit") })}
+        >
             {surfaceText("trim")}
         </Button>
     );

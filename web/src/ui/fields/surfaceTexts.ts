@@ -4,11 +4,11 @@ import type { Coverage } from "../../link/surfaceRest.ts";
 import { fillText } from "../texts.ts";
 
 const texts = {
-    open: "From a parametric surface…",
+    open: "From a parametric surface …",
     title: "Equation of a parametric surface",
     doc: "Expressions in two of the letters s, t, u, v: polynomials and fractions. A letter may stand in sin, cos, tan alone, or in exp, sinh, cosh, tanh alone.",
     equation: "Equation",
-    busy: "Looking for the equation…",
+    busy: "Looking for the equation …",
     step: "{text} ({seconds} s)",
     cancel: "Cancel",
     cancelled: "Cancelled.",
@@ -18,7 +18,7 @@ const texts = {
     from: "{letter} from",
     to: "{letter} to",
     range: "{letter} has to end above its start.",
-    change: "Change…",
+    change: "Change …",
     none: "No equation: {reason} The sampled surface stays.",
     make: "Make implicit",
     makeEdit: "equation instead of the sampled surface",
@@ -26,7 +26,7 @@ const texts = {
     edit: "equation of a parametric surface",
     trim: "Keep only the patch",
     trimEdit: "the patch alone",
-    "proof.busy": "Being checked…",
+    "proof.busy": "Being checked …",
     "proof.verified": "Verified: {reason}",
     "proof.unverified": "Not verified: {reason}",
 } as const;

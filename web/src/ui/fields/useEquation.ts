@@ -39,13 +39,18 @@ export function useEquation(
     texts: PartTexts,
     method: string | null,
     ranges: Readonly<Record<string, SurfaceRange>>,
+    /* Of the box that the surface is cut by; null: the least one around the patch. */
+    size: readonly number[] | null = null,
 ): Search {
     const { rest } = useEditor();
     const [result, setResult] = useState(BEGUN);
     const request = useRef(new AbortController());
     const { x, y, z } = texts;
     const about = JSON.stringify({ x, y, z, ...(method === null ? {} : { method }) });
-    const within = JSON.stringify(rangesAsked(texts, ranges));
+    const within = JSON.stringify({
+        ...rangesAsked(texts, ranges),
+        ...(size === null ? {} : { size }),
+    });
     /* What the equation is of that is shown. */
     const shown = useRef("");
     useEffect(() => {
