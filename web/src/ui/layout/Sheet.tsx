@@ -26,7 +26,7 @@ const names = {
 
 const isDrawer = (tab: Tab): tab is Drawer => !always.includes(tab);
 
-const heights = ["76px", "46%", "82%"] as const;
+const heights = ["64px", "46%", "82%"] as const;
 
 /* Runs when something was selected in the picture: its values are what comes next. */
 function usePicked(touched: { readonly current: string }, run: () => void): void {
@@ -88,6 +88,7 @@ export function Sheet({ picture }: { picture: ReactNode }) {
             <div
                 className="sheet"
                 data-tall={height === 2 || undefined}
+                data-low={height === 0 || undefined}
                 onPointerDownCapture={() => {
                     touched.current = "sheet";
                 }}

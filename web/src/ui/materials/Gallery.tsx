@@ -150,7 +150,7 @@ function Foot({ use, onClose }: Props) {
     const editor = useEditor();
     return (
         <>
-            <span className="palette-what ellipsis">
+            <span className="palette-what">
                 {t(use === null ? "gallery.what" : "gallery.whatTry")}
             </span>
             <Button

@@ -98,7 +98,8 @@ function Sheet() {
     const stages = stagesOf(schema, numbers);
     const sum = Math.max(0.001, frameTime(numbers));
     return (
-        <div className="stats">
+        // biome-ignore lint/a11y/noNoninteractiveTabindex: it may scroll, and is read from its top
+        <div className="stats" tabIndex={0}>
             <div className="stats-title">
                 <span>
                     {t(numbers.state === "none" ? "stats.title" : `stats.${numbers.state}`)}
