@@ -60,7 +60,7 @@ export function NodeMenu({ at, target = "selection", onList, onClose }: Props) {
         <PointMenu at={at} label={t("scene.menu", { name: title })} onClose={onClose}>
             {at !== null && <MenuTitle>{title}</MenuTitle>}
             {onList && (
-                <MenuItem keys={keyText("Alt Click")} onSelect={onList}>
+                <MenuItem keys={keyText("Alt+Click")} onSelect={onList}>
                     {t("under.open")}
                 </MenuItem>
             )}

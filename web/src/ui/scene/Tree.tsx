@@ -38,6 +38,9 @@ const INDENT = 14;
 const FRAMES = 60;
 const ROW = 26;
 const TOUCH_ROW = 36;
+/* Around all rows. */
+const ABOVE = 2;
+const BELOW = 26;
 
 export function Tree({ document, query }: { document: SceneDocument; query: string }) {
     const editor = useEditor();
@@ -109,6 +112,7 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
         estimateSize: () => height,
         getItemKey: (index) => items[index]?.getId() ?? index,
         overscan: 8,
+        paddingStart: ABOVE,
     });
     useReveal(tree, document, selection.at(-1) ?? null, (id) => {
         const index = items.findIndex((item) => item.getId() === id);
@@ -126,11 +130,12 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
                 onFocus={focusBack(tree, selection.at(-1))}
                 className="tree"
                 data-testid="tree"
-                style={{ blockSize: rows.getTotalSize() + 28 }}
+                style={{ blockSize: rows.getTotalSize() + BELOW }}
+                data-carries={tree.getState().dnd ? "" : undefined}
             >
                 {rows.getVirtualItems().map((row) => {
                     const item = items[row.index];
-                    const place = { top: row.start + 2, height };
+                    const place = { top: row.start, height };
                     if (item?.getId() === MODELS) {
                         const count = document.models.length;
                         return <ModelsRow key={row.key} item={item} count={count} {...place} />;
@@ -271,7 +276,9 @@ function useReveal(
     const { view } = useEditor().stores;
     const revealed = useRef<string | null>(null);
     useEffect(() => {
-        if (id === null || id === revealed.current || !scene.nodes.has(id)) {
+        /* A node that goes to another parent has another row. */
+        const row = id === null ? null : `${scene.nodes.get(id)?.parent}/${id}`;
+        if (id === null || row === revealed.current || !scene.nodes.has(id)) {
             revealed.current = id === null ? null : revealed.current;
             return;
         }
@@ -285,7 +292,7 @@ function useReveal(
             view.setState((state) => unfoldTo(state, above));
             return;
         }
-        revealed.current = id;
+        revealed.current = row;
         tree.getItemInstance(id)?.setFocused();
         scroll(id);
         /* The row of a node that has just come is drawn in one of the next frames. */
