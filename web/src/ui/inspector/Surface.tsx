@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* What a node is made of: its material, and the material's two main values at hand, with a word on
- * who else has it. */
+ * who else has it. Of several nodes only what all have in common. */
 import { useMemo } from "react";
 import { findResource, resourceParams } from "../../model/document.ts";
+import { mixedAt } from "../../model/multiEdit.ts";
 import { valuesPlace } from "../../model/places.ts";
 import { findParam, type Param } from "../../model/schema.ts";
 import { usersOf } from "../../model/usage.ts";
 import { Form } from "../form.tsx";
 import { makeMaterialUnique } from "../insertions.ts";
-import { useDocument, useEditor } from "../state.ts";
+import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { Section } from "./Section.tsx";
 import "./inspector.css";
@@ -19,6 +20,12 @@ const MAIN = ["color", "roughness", "gloss"];
 export function Surface({ id, owner }: { id: string; owner: string }) {
     const common = useDocument((state) => state.schema.node);
     const name = useDocument(({ document }) => document?.nodes.get(id)?.common.material ?? "");
+    const selection = useView((view) => view.selection);
+    const mixed = useDocument(
+        ({ schema, document }) =>
+            document !== null &&
+            mixedAt(schema, document, selection, `/nodes/${id}/material`) !== "",
+    );
     const surface = useMemo(() => {
         const material = findParam(common, "material");
         return material ? [material] : [];
@@ -27,7 +34,9 @@ export function Surface({ id, owner }: { id: string; owner: string }) {
         <Section title={t("inspector.surface")}>
             <div className="section-body">
                 <Form params={surface} base={`/nodes/${id}`} owner={owner} />
-                {typeof name === "string" && name !== "" && <Values id={id} material={name} />}
+                {typeof name === "string" && name !== "" && !mixed && (
+                    <Values id={id} material={name} />
+                )}
             </div>
         </Section>
     );
