@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Names of the schema in the words of the page. */
 import { expect, test } from "vitest";
-import { drawnBy, outputTitle, typeTitle, words } from "../src/ui/names.ts";
+import { drawnBy, outputTitle, placeTitle, typeTitle, words } from "../src/ui/names.ts";
 
 test("names are words, spelled as the page's texts are", () => {
     expect(words("base_color")).toBe("base colour");
@@ -17,4 +17,12 @@ test("what draws is the device, but for the engine, which needs none", () => {
     expect(drawnBy({ name, stage: "compute" })).toBe(name);
     expect(drawnBy({ name, stage: "fragment" })).toBe(name);
     expect(drawnBy({ name, stage: "engine" })).toBe("the processors of the server");
+});
+
+test("a place is told by who has it, in the words of the page", () => {
+    expect(placeTitle(null, "/environment/image")).toBe("Backdrop · image");
+    expect(placeTitle(null, "/camera/fov")).toBe("Camera · field of view");
+    expect(placeTitle(null, "/materials/clay")).toBe("clay");
+    expect(placeTitle(null, "/lights/sun/intensity")).toBe("sun · intensity");
+    expect(placeTitle(null, "/nodes/gone")).toBe("/nodes/gone");
 });

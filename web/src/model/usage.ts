@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Who names what: nodes name materials, models and distance functions, materials name shaders.
  * What is named cannot go; models may not hold themselves. */
-import { findResource, modelOf, preorder, type SceneDocument } from "./document.ts";
+import { findResource, modelOf, nodeLabel, preorder, type SceneDocument } from "./document.ts";
 import { LISTS, type ListName, resourcePlace } from "./places.ts";
 import { nodeType, type Param, type ParamType, type Schema, type Values } from "./schema.ts";
 
@@ -89,7 +89,9 @@ export function whyNotRemoved(
         return null;
     }
     const others = users.length === 1 ? "" : ` and ${users.length - 1} more`;
-    return `the ${LISTS[list].one} ${name} is used by ${first.kind} ${first.name}${others}`;
+    const node = first.kind === "node" ? document.nodes.get(first.name) : undefined;
+    const user = node ? nodeLabel(node) : first.name;
+    return `the ${LISTS[list].one} ${name} is used by ${first.kind} ${user}${others}`;
 }
 
 /* --- models --- */

@@ -43,14 +43,18 @@ export function paramTitle(param: Param): string {
 /* A place as people name it: "/nodes/ball/params/radius" -> "Ball · radius". */
 export function placeTitle(document: SceneDocument | null, place: string): string {
     const node = document?.nodes.get(nodeOfPlace(place) ?? "");
-    const owner = node ? nodeLabel(node) : resourceOfPlace(place)?.name;
+    const record = RECORDS.find((one) => place.startsWith(`/${one}/`));
+    const named = node ? nodeLabel(node) : resourceOfPlace(place)?.name;
+    const owner = record ? t(`setup.${record}`) : named;
     if (owner === undefined) {
         return place;
     }
     const last = place.split("/").at(-1) ?? "";
-    const ofAll = place.split("/").length === OWNER_PARTS;
+    const ofAll = record === undefined && place.split("/").length === OWNER_PARTS;
     return ofAll ? owner : `${owner} · ${spoken[last] ?? words(last)}`;
 }
+
+const RECORDS = ["camera", "environment", "render"] as const;
 
 /* "", "nodes", "ball" */
 const OWNER_PARTS = 3;
