@@ -3,7 +3,7 @@
 import { Braces, Workflow } from "lucide-react";
 import { commandById } from "../../model/commandLookup.ts";
 import { drawerOf, toggleDrawer } from "../../model/view.ts";
-import { useEditor, useView } from "../state.ts";
+import { useDocument, useEditor, useView } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
 import { TOUCH, useMedia } from "../theme.ts";
 import { Tip } from "../widgets/Tip.tsx";
@@ -65,7 +65,9 @@ export function Status() {
     const touch = useMedia(TOUCH);
     const touched = (gesture: TextKey): TextKey =>
         touch && gesture === "hint.click" ? "hint.tap" : gesture;
-    const selected = useView((view) => view.selection.length > 0);
+    const selection = useView((view) => view.selection);
+    /* What is deleted by others stays selected, for when it comes back. */
+    const selected = useDocument(({ document }) => selection.some((id) => document?.nodes.has(id)));
     return (
         <Region as="footer" name={t("region.status")} className="status">
             <DrawerTab drawer="graph" />
