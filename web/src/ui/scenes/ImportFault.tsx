@@ -45,7 +45,8 @@ export default function ImportFault({ problem, onChoose, onClose }: Props) {
                         ))}
                     </div>
                     <Button
-                        look={problem.choices.length > 0 ? undefined : "primary"}
+                        className="fault-close"
+                        look={problem.choices.length > 0 ? "outline" : "primary"}
                         onClick={onClose}
                     >
                         {t("close")}
@@ -55,6 +56,8 @@ export default function ImportFault({ problem, onChoose, onClose }: Props) {
         </Dialog>
     );
 }
+
+const bringInSight = (one: HTMLElement | null): void => one?.scrollIntoView({ inline: "nearest" });
 
 function Excerpt({ problem: { excerpt, from, line, column } }: { problem: ImportProblem }) {
     return (
@@ -71,7 +74,9 @@ function Excerpt({ problem: { excerpt, from, line, column } }: { problem: Import
                         {here && column !== null && (
                             <>
                                 <i />
-                                {`${" ".repeat(column - 1)}^\n`}
+                                {" ".repeat(column - 1)}
+                                <b ref={bringInSight}>^</b>
+                                {"\n"}
                             </>
                         )}
                     </span>
