@@ -91,7 +91,7 @@ export const ABSENT: readonly Absent[] = [
     {
         words: "mesh stl obj gltf glb 3mf print",
         title: "Meshes",
-        answer: "There are no meshes: a scene is downloaded as JSON, a picture as PNG, JPEG or NPY.",
+        answer: "There are no meshes: a scene is downloaded as JSON, a picture as PNG, JPEG, NPY or HDR.",
     },
     {
         words: "equation formula implicit function parametric expression math",

@@ -21,7 +21,7 @@ export const FILE_TEXTS = {
     "scenes.more": "Actions for {name}",
     "scenes.nameOf": "New name of {name}",
     "scenes.deleted": "“{name}” is deleted.",
-    "scenes.failed": "The scenes could not be read: {message}",
+    "scenes.failed": "The scenes could not be read: {message}.",
     "scenes.tagline": "Sculpt with distance fields, live.",
     "scenes.drop": "Drop scene files or a folder to open them",
     "import.refused": "These files were not opened",
@@ -39,7 +39,7 @@ export const FILE_TEXTS = {
     "text.broken": "{count} places with errors",
     "text.broken.one": "1 place with an error",
     "text.met": "changed by others too",
-    "text.hint": "Applied when you pause, or with Ctrl+Enter. Each time is one step of undo.",
+    "text.hint": "Applied at a pause or Ctrl+Enter, as one undo step.",
     "text.edit": "edit the text",
     "text.editOne": "edit {name} as text",
     "text.others":

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* The bar: scenes, the scene's name, undo, Add, search, theme, files, help. */
 import {
+    Bookmark,
+    Braces,
     ChevronDown,
     CircleHelp,
     Copy,
     FileImage,
     FileJson,
+    LayoutGrid,
     Monitor,
     Moon,
+    Pencil,
     Plus,
     Redo2,
     Search,
@@ -122,7 +126,9 @@ function SceneMenu({ onRename }: { onRename: () => void }) {
     };
     return (
         <>
-            <MenuItem onSelect={onRename}>{t("scenes.rename")}</MenuItem>
+            <MenuItem icon={<Pencil size={14} />} onSelect={onRename}>
+                {t("scenes.rename")}
+            </MenuItem>
             <MenuItem icon={<Copy size={14} />} onSelect={() => void copy()}>
                 {t("bar.duplicate")}
             </MenuItem>
@@ -141,11 +147,11 @@ function SceneMenu({ onRename }: { onRename: () => void }) {
                 {t("bar.upload")}
             </MenuItem>
             <MenuLine />
-            <ActItem id="view.text" />
-            <ActItem id="scene.open" />
-            <ActItem id="library.open" />
-            <ActItem id="view.theme" />
-            <ActItem id="help.keys" />
+            <ActItem id="view.text" icon={<Braces size={14} />} />
+            <ActItem id="scene.open" icon={<LayoutGrid size={14} />} />
+            <ActItem id="library.open" icon={<Bookmark size={14} />} />
+            <ActItem id="view.theme" icon={<Sun size={14} />} />
+            <ActItem id="help.keys" icon={<CircleHelp size={14} />} />
         </>
     );
 }

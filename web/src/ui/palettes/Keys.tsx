@@ -13,9 +13,9 @@ const gestures: readonly { title: TextKey; rows: readonly (readonly [TextKey, st
         title: "keys.picture",
         rows: [
             ["keys.select", "Click"],
-            ["keys.selectMore", "Shift Click"],
-            ["keys.under", "Alt Click"],
-            ["keys.box", "Shift drag"],
+            ["keys.selectMore", "Shift+Click"],
+            ["keys.under", "Alt+Click"],
+            ["keys.box", "Shift+Drag"],
             ["keys.orbit", "Drag"],
             ["keys.pan", "Right drag"],
             ["keys.dolly", "Wheel"],
@@ -28,8 +28,8 @@ const gestures: readonly { title: TextKey; rows: readonly (readonly [TextKey, st
         title: "keys.fields",
         rows: [
             ["keys.scrub", "Drag"],
-            ["keys.fine", "Shift drag"],
-            ["keys.snap", "Ctrl drag"],
+            ["keys.fine", "Shift+Drag"],
+            ["keys.snap", "Ctrl+Drag"],
             ["keys.type", "Click"],
             ["keys.step", "↑ ↓"],
             ["keys.restore", "Esc"],

@@ -13,6 +13,9 @@ import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import "./view.css";
 
+/* The top of the picture, where the tools lie. */
+const TOOLS = 50;
+
 function marksIn(stores: Stores): readonly Mark[] {
     const { document, schema } = stores.document.getState();
     const camera = shownCamera(stores);
@@ -28,7 +31,7 @@ function place(stores: Stores, field: HTMLElement): void {
         const mark = marks.find(({ key }) => key === (element as HTMLElement).dataset.mark);
         const spot = mark && projection?.spotOf(mark.at);
         const inside =
-            spot && spot.x > 0 && spot.y > 0 && spot.x < size.width && spot.y < size.height;
+            spot && spot.x > 0 && spot.y > TOOLS && spot.x < size.width && spot.y < size.height;
         (element as HTMLElement).hidden = !inside;
         if (inside) {
             (element as HTMLElement).style.translate = `${spot.x}px ${spot.y}px`;
