@@ -193,6 +193,15 @@ test('the badge tells how much the patch covers, and one edit keeps only the pat
     await closePage(page);
 });
 
+test('the dialog tells of the clip that the badge tells of', async () => {
+    const { page } = await open(UMBRELLA);
+    await told(page, /The patch covers/);
+    const [covers] = /The patch covers \d+ % /.exec(await page.locator('.surface-badge').innerText());
+    await page.getByRole('button', { name: 'Change …' }).click();
+    await page.getByRole('dialog').getByText(covers).waitFor();
+    await closePage(page);
+});
+
 test('a search tells its steps, and is cancelled', async () => {
     const long = (i) => `0.${'739184620583'.repeat(2).slice(i)}7`;
     const { page } = await open(UMBRELLA);

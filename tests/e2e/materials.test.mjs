@@ -142,4 +142,14 @@ describe('values at hand', () => {
         assert.equal(materialOf(own, 'ball'), 'clay');
         await page.getByText('Also on 1 other.').waitFor({ state: 'detached' });
     });
+
+    test('nodes of different materials have none of their values', async () => {
+        await open();
+        const colour = page.locator('[data-param="diffuse"]').first();
+        await row(page, 'crate').click();
+        await colour.waitFor();
+        await row(page, 'ball').click({ modifiers: ['Control'] });
+        await page.getByRole('heading', { name: '2 nodes' }).waitFor();
+        await colour.waitFor({ state: 'detached' });
+    });
 });
