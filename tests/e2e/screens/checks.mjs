@@ -163,10 +163,15 @@ function lostControls({ parentsOf, nameOf, isSeen, isEmpty, overlap, scrolls, is
         const { overflowX, overflowY } = getComputedStyle(one);
         return scrolls(overflowX) || scrolls(overflowY);
     };
+    /* Icons of what is in the scene lie where that is. */
+    const areMarks = (...all) => all.every((one) => one?.matches('.view-mark'));
     /* What floats may cover what is below it; a message may not, but where that can be scrolled. */
     const mayCover = (at, one) => {
         const above = at?.closest(LAYERS);
         if (at?.closest('.leaving') && one.closest('.scenes')) {
+            return true;
+        }
+        if (areMarks(at?.closest('button'), one)) {
             return true;
         }
         return above && !above.contains(one) && !above.classList.contains('notices') && !at.closest('.notice');
@@ -194,7 +199,8 @@ function lostControls({ parentsOf, nameOf, isSeen, isEmpty, overlap, scrolls, is
             found.push(`control is covered: ${nameOf(one)} by ${at ? nameOf(at) : 'nothing'}`);
         }
         for (const [other, its] of parts) {
-            if (!other.contains(one) && layerOf(one) === layerOf(other) && overlap(box, its)) {
+            const besides = !other.contains(one) && !areMarks(other, one);
+            if (besides && layerOf(one) === layerOf(other) && overlap(box, its)) {
                 found.push(`controls overlap: ${nameOf(other)} and ${nameOf(one)}`);
             }
         }
