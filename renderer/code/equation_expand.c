@@ -53,6 +53,21 @@ int equation_degree(const struct equation *equation)
     return a < 0 || b < 0 ? -1 : a > b ? a : b;
 }
 
+bool equation_take_root(struct equation *equation)
+{
+    const struct equation_node *left = &equation->nodes[equation->left];
+    const struct equation_node *right = &equation->nodes[equation->right];
+    const bool is_zero =
+        right->op == EQUATION_NUMBER && right->value == 0 &&
+        (equation->relation == EQUATION_EQUALS || equation->relation == EQUATION_LESS_EQUAL);
+    const bool is_even = left->op == EQUATION_WHOLE && left->value > 0 && fmod(left->value, 2) == 0;
+
+    if (is_zero && is_even) {
+        equation->left = left->args[0];
+    }
+    return is_zero && is_even;
+}
+
 /* --- numbers --- */
 
 static double divided(double a, double b)

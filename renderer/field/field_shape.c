@@ -120,22 +120,21 @@ static struct bounds fill_cut(const struct field_call *call, double scale,
     return box;
 }
 
-/* The head of its numbers. */
-static void fill_form(const struct field_call *call, const double *numbers, int degree,
-                      double out[4 * POLYNOMIAL_HEAD])
+/* The head of its numbers. `thickness`: in parts of the extent; -1: solid. */
+static void fill_form(const struct field_call *call, const double *numbers, double thickness,
+                      int degree, double out[4 * POLYNOMIAL_HEAD])
 {
-    const double thickness = numbers[4] / call->extent;
     const double head[4 * POLYNOMIAL_HEAD] = {call->size[0] / 2,
                                               call->size[1] / 2,
                                               call->size[2] / 2,
                                               call->extent,
                                               call->form.ball ? numbers[3] : 0,
-                                              call->form.sheet ? thickness : -1,
+                                              thickness,
                                               degree,
                                               polynomial_rest_rows(degree),
                                               POLYNOMIAL_ESTIMATE,
                                               EQUATION_REACH,
-                                              call->form.sheet ? thickness / 16 : 0,
+                                              fmax(thickness / 16, 0),
                                               0};
 
     memcpy(out, head, sizeof head);
@@ -174,9 +173,10 @@ static void emit_numbers(struct builder *b, const struct node *node, const struc
 /* An equation that is a polynomial: its coefficients are numbers of the field. */
 static struct result emit_polynomial(struct builder *b, const struct node *node,
                                      const struct node_frame *frame, uint16_t slot, uint32_t number,
-                                     const struct field_call *call, const struct equation *equation)
+                                     const struct field_call *call, struct equation *equation)
 {
     enum { LETTERS = 5 }; /* behind size, radius and thickness */
+    const bool is_square = !call->form.sheet && equation_take_root(equation);
     const int degree = equation_degree(equation);
     const size_t rows = POLYNOMIAL_HEAD + polynomial_rows(degree);
     double declared[SDF_NUMBERS_MAX], cut[FIELD_CUT_NUMBERS];
@@ -185,7 +185,10 @@ static struct result emit_polynomial(struct builder *b, const struct node *node,
     cut[FIELD_JUMP] = POLYNOMIAL_ESTIMATE * call->extent * frame->scale;
     cut[FIELD_UNSTEADY] = hypot(POLYNOMIAL_ESTIMATE, EQUATION_REACH) * call->extent * frame->scale;
     sdf_numbers(call->params, call->values, declared);
-    fill_form(call, declared, degree, numbers);
+    const double thickness = call->form.sheet ? declared[4] / call->extent
+                             : is_square      ? POLYNOMIAL_THIN
+                                              : -1;
+    fill_form(call, declared, thickness, degree, numbers);
     equation_expand(equation, declared + LETTERS, call->extent, degree, c);
     polynomial_write(degree, c, numbers + (size_t)(4 * POLYNOMIAL_HEAD));
     builder_add_trips(b, (uint64_t)polynomial_trips(degree));

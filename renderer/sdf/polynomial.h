@@ -39,6 +39,10 @@ enum { POLYNOMIAL_HEAD = 3, POLYNOMIAL_DEGREE_MAX = 18, POLYNOMIAL_COEFFICIENTS_
  * clip. */
 #define POLYNOMIAL_ESTIMATE 0.5
 
+/* A polynomial whose square is to be 0 is drawn as a sheet of this thickness, a part of the extent:
+ * a hundredth of a pixel's width in small pictures, by which rays may step too far. */
+#define POLYNOMIAL_THIN 4e-4
+
 /* Of terms that have at most this degree: rows of numbers. */
 size_t polynomial_rows(int degree);
 int polynomial_rest_rows(int degree);

@@ -13,16 +13,10 @@
 
 #include "compiled.h"
 #include "drawing.h"
+#include "eye.h"
 #include "protocol/memory.h"
 
 enum { THREADS = 2, STEPS_MAX = 20000 };
-
-/* Where the rays begin. */
-struct eye {
-    double place[3], forward[3], right[3], up[3]; /* of length 1 */
-    double half;                                  /* of the picture's height, at distance 1 */
-    bool parallel;
-};
 
 struct oracle {
     struct oracle_params params;
@@ -40,65 +34,18 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        out[i] = a[j] * b[k] - a[k] * b[j];
-    }
-}
-
-static void to_unit(double v[3])
-{
-    const double length = sqrt(dot(v, v));
-
-    for (int i = 0; i < 3; i++) {
-        v[i] /= length;
-    }
-}
-
-static struct eye eye_of(const struct record *camera)
-{
-    struct eye eye = {.parallel = record_is(camera, "type", "orthographic")};
-    const double *target = record_vector(camera, "target");
-
-    memcpy(eye.place, record_vector(camera, "position"), sizeof eye.place);
-    for (int i = 0; i < 3; i++) {
-        eye.forward[i] = target[i] - eye.place[i];
-    }
-    to_unit(eye.forward);
-    cross(eye.forward, record_vector(camera, "up"), eye.right);
-    to_unit(eye.right);
-    cross(eye.right, eye.forward, eye.up);
-    eye.half = eye.parallel ? record_number(camera, "height") / 2
-                            : tan(record_number(camera, "fov") / 2 * M_PI / 180);
-    return eye;
-}
-
 /* Through the centre of the place's pixel. */
 static void ray_of(const struct oracle *oracle, int place, double origin[3], double direction[3])
 {
     const struct oracle_params *p = &oracle->params;
-    const struct eye *eye = &oracle->eye;
-    const int every = p->every;
-    const double pixel = 2 * eye->half / (every * p->height);
-    const double x = pixel * (every * (place % p->width) + 0.5 - every * p->width / 2.0);
-    const double y = pixel * (every * p->height / 2.0 - every * (place / p->width) - 0.5);
 
-    for (int i = 0; i < 3; i++) {
-        const double aside = x * eye->right[i] + y * eye->up[i];
-        origin[i] = eye->place[i] + (eye->parallel ? aside : 0);
-        direction[i] = eye->forward[i] + (eye->parallel ? 0 : aside);
-    }
-    to_unit(direction);
+    eye_ray(&oracle->eye, p->every * p->width, p->every * p->height, p->every * (place % p->width),
+            p->every * (place / p->width), origin, direction);
 }
 
-/* Half a pixel in radius, where a ray has come so far. */
 static double footprint(const struct oracle *oracle, double t)
 {
-    const struct eye *eye = &oracle->eye;
-
-    return eye->half / (oracle->params.every * oracle->params.height) * (eye->parallel ? 1 : t);
+    return eye_footprint(&oracle->eye, oracle->params.every * oracle->params.height, t);
 }
 
 /* --- what the evaluator says --- */
