@@ -15,6 +15,7 @@
 #include "protocol/equation.h"
 #include "renderer/code/equation_pole.h"
 #include "renderer/code/equation_value.h"
+#include "tests/support/json_text.h"
 #include "tests/support/random_scene.h"
 
 static const char *const letters[] = {"a", "b", "c", "d", NULL};
@@ -141,6 +142,45 @@ static void texts_are_read_and_printed(void **state)
     }
 }
 
+/* In another expression the same: what is printed is read as the same, and the value is known. */
+static void texts_are_read_within_others(void **state)
+{
+    static const struct {
+        const char *before, *after;
+        double factor, more;
+    } around[] = {
+        {"y - (", ")", -1, Y}, {"2(", ")\u00b7z", 2 * Z, 0}, {"k9 := ", "; k9 + 1", 1, 1}};
+    int count = 0;
+    (void)state;
+
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+        if (strpbrk(good[i].text, "<=>") || strstr(good[i].text, "\u2264") ||
+            strstr(good[i].text, "\u2265")) {
+            continue;
+        }
+        struct equation *alone = read(good[i].text);
+        for (size_t k = 0; k < sizeof around / sizeof around[0]; k++, count++) {
+            char text[200];
+            snprintf(text, sizeof text, "%s%s%s", around[k].before, good[i].text, around[k].after);
+            struct equation *equation = read(text);
+            char *printed = equation_print(equation, letters);
+            struct equation *again = read(printed);
+            char *twice = equation_print(again, letters);
+            const double value = equation_value(again, point, values);
+            const double expected =
+                around[k].more + around[k].factor * equation_value(alone, point, values);
+            assert_string_equal(twice, printed);
+            assert_true(fabs(value - expected) <= 1e-12 * fmax(fabs(expected), 1));
+            free(printed);
+            free(twice);
+            free(equation);
+            free(again);
+        }
+        free(alone);
+    }
+    assert_in_range(count, 150, 1000);
+}
+
 /* --- what is refused --- */
 
 static const struct {
@@ -219,6 +259,54 @@ static void errors_have_their_place(void **state)
     }
 }
 
+/* Errors of the whole text stand at its begin, and definitions have to be there. */
+static bool moves(const char *text, const char *words)
+{
+    static const char *const whole[] = {"no x, y or z", "a division by 0", "more than a number"};
+
+    for (size_t i = 0; i < sizeof whole / sizeof whole[0]; i++) {
+        if (strstr(words, whole[i])) {
+            return false;
+        }
+    }
+    return !strstr(text, ":=");
+}
+
+static void places_follow_the_text(void **state)
+{
+    static const struct {
+        const char *text;
+        int lines, columns; /* what follows begins so many later */
+    } before[] = {
+        {"z + ", 0, 4},        {"\u03c0\u00d7z +", 0, 5},   {"|y|\u00b2\n +", 1, 2},
+        {"w := x;\n\n", 2, 0}, {"(x\n-\ty)\u00b7\n", 2, 0},
+    };
+    int count = 0;
+    (void)state;
+
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        for (size_t k = 0; k < sizeof before / sizeof before[0]; k++) {
+            struct equation_errors errors;
+            char text[200];
+            if (!moves(bad[i].text, bad[i].words)) {
+                continue;
+            }
+            snprintf(text, sizeof text, "%s%s", before[k].text, bad[i].text);
+            const struct equation *equation = equation_read(text, letters, &errors);
+            const struct equation_error *first = &errors.list[0];
+            const int line = bad[i].line + before[k].lines;
+            const int column = bad[i].column + (bad[i].line == 1 ? before[k].columns : 0);
+            if (equation || first->line != line || first->column != column ||
+                (!strstr(bad[i].words, "in line") && !strstr(first->message, bad[i].words))) {
+                fail_msg("%s\n%d:%d, not %d:%d: %s", text, first->line, first->column, line, column,
+                         equation ? "is read" : first->message);
+            }
+            count++;
+        }
+    }
+    assert_in_range(count, 150, 1000);
+}
+
 static void several_errors_are_told(void **state)
 {
     struct equation_errors errors;
@@ -292,16 +380,61 @@ static void limits_hold_on_both_sides(void **state)
         }
     }
     assert_true(is_read("x^64 + y^-64"));
+    assert_true(is_read("cheb(64, x)"));
+    assert_true(is_read("x + 1000000"));
+    assert_false(is_read("x + 1000001"));
+    assert_false(is_read("x - 1000001"));
     assert_true(is_read("k0 := x + y; k1 := k0*k0; k2 := k1*k1; k3 := k2*k2; k4 := k3*k3; k4"));
-    char *bomb = repeated("k0 := x;", "k# := k@ + k@;", 14, "k14");
-    assert_false(is_read(bomb));
-    free(bomb);
+}
+
+/* k13 has 16,383 operations with all definitions written out. */
+static void weights_are_bounded(void **state)
+{
+    static const struct {
+        const char *tail;
+        bool is_read;
+    } rows[] = {{"k13", true}, {"-k13", true}, {"--k13", false}, {"k13 + k13", false}};
+    (void)state;
+
+    assert_int_equal(LIMIT_EQUATION_WEIGHT, 1 << 14);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char *text = repeated("k0 := x;", "k# := k@ + k@;", 13, rows[i].tail);
+        assert_int_equal(is_read(text), rows[i].is_read);
+        free(text);
+    }
+}
+
+static void names_are_bounded(void **state)
+{
+    (void)state;
+    for (int over = 0; over < 2; over++) {
+        struct equation_errors errors;
+        char *text = repeated("", "q", 31 + over, "*x");
+        assert_null(equation_read(text, letters, &errors));
+        assert_non_null(strstr(errors.list[0].message, over ? "at most 31 letters" : "is no name"));
+        free(text);
+    }
+}
+
+static void texts_are_bounded(void **state)
+{
+    (void)state;
+    for (int over = 0; over < 2; over++) {
+        struct error err = {0};
+        char *text = repeated("{'format':'fieldcast/1','root':{'type':'implicit','params':"
+                              "{'equation':'x",
+                              " ", LIMIT_EQUATION_BYTES - 1 + over, "'}}}");
+        struct scene *scene = json_text_scene(text, &err);
+        assert_int_equal(scene == NULL, over);
+        scene_destroy(scene);
+        free(text);
+    }
 }
 
 /* --- by chance --- */
 
 /* Whatever the text is, it is read or refused at a place in it; what is read is printed as it will
- * be read. */
+ * be read. EQUATION_TEXTS=10000000 tries that many. */
 static void random_texts_do_no_harm(void **state)
 {
     static const char *const parts[] = {
@@ -310,10 +443,12 @@ static void random_texts_do_no_harm(void **state)
         "|", ";", "r", ":=", "\u00b2", "pi",   ".", "1e", "\n", "hypot("};
 
     enum { ROUNDS = 20000, PARTS = sizeof parts / sizeof parts[0] };
-    struct random random = {.state = 99};
+    const char *asked = getenv("EQUATION_TEXTS");
+    const int rounds = asked ? atoi(asked) : ROUNDS;
+    struct random random = {.state = 99 + (uint64_t)rounds};
     int valid = 0;
     (void)state;
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < rounds; round++) {
         char text[256] = "";
         struct equation_errors errors;
         const size_t length = 1 + random_below(&random, 14);
@@ -336,7 +471,7 @@ static void random_texts_do_no_harm(void **state)
         free(again);
         valid++;
     }
-    assert_true(valid > ROUNDS / 200);
+    assert_true(valid > rounds / 200);
 }
 
 /* --- poles --- */
@@ -401,10 +536,19 @@ static void a_ball_has_no_corners(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texts_are_read_and_printed), cmocka_unit_test(errors_have_their_place),
-        cmocka_unit_test(several_errors_are_told),    cmocka_unit_test(limits_hold_on_both_sides),
-        cmocka_unit_test(random_texts_do_no_harm),    cmocka_unit_test(poles_are_told_from_zeros),
-        cmocka_unit_test(a_pole_has_its_place),       cmocka_unit_test(a_ball_has_no_corners),
+        cmocka_unit_test(texts_are_read_and_printed),
+        cmocka_unit_test(errors_have_their_place),
+        cmocka_unit_test(texts_are_read_within_others),
+        cmocka_unit_test(places_follow_the_text),
+        cmocka_unit_test(several_errors_are_told),
+        cmocka_unit_test(limits_hold_on_both_sides),
+        cmocka_unit_test(weights_are_bounded),
+        cmocka_unit_test(names_are_bounded),
+        cmocka_unit_test(texts_are_bounded),
+        cmocka_unit_test(random_texts_do_no_harm),
+        cmocka_unit_test(poles_are_told_from_zeros),
+        cmocka_unit_test(a_pole_has_its_place),
+        cmocka_unit_test(a_ball_has_no_corners),
     };
 
     return cmocka_run_group_tests_name("equations", tests, NULL, NULL);
