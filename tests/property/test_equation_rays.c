@@ -4,6 +4,9 @@
  * ray begins outside of one of them and has to find the first root. The reference takes samples
  * along the ray; where |f| is least between them it looks for a root of even order.
  *
+ * And the bound of the distance, which is asked beside rays, against points of the surfaces.
+ *
+ * EQUATION_POINTS=10000: at so many places, with ten points of the surface for each.
  * EQUATION_ROWS=256: the whole picture, not some rows in its middle; EQUATION_FIELD=barth: this
  * field alone; EQUATION_STAGE=compute: by shaders. */
 #include <math.h>
@@ -16,6 +19,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include <cmocka.h>
 
@@ -23,8 +27,10 @@
 #include "protocol/memory.h"
 #include "renderer/code/equation_value.h"
 #include "renderer/field/field_quality.h"
+#include "tests/support/compiled.h"
 #include "tests/support/drawing.h"
 #include "tests/support/eye.h"
+#include "tests/support/random_scene.h"
 #include "tests/support/text_file.h"
 
 enum { SIDE = 256, ROWS = 2, SAMPLES = 384, REFINEMENTS = 60, THREADS = 2, TEXT = 8192 };
@@ -305,6 +311,103 @@ static void rays_end_at_the_first_root(void **state)
     assert_true(wrong <= fmax(1, field->wrong * tally.rays));
 }
 
+/* --- bounds --- */
+
+enum { PLACES = 200 };
+
+static void random_place(struct random *random, double half, double out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        out[i] = (float)random_between(random, -half, half);
+    }
+}
+
+/* Between two places of the clip; false: there is none. */
+static bool surface_point(struct random *random, const struct equation *equation, double half,
+                          bool square, double out[3])
+{
+    struct line line = {.equation = equation};
+    double to[3];
+
+    random_place(random, half, line.origin);
+    random_place(random, half, to);
+    for (int i = 0; i < 3; i++) {
+        line.way[i] = to[i] - line.origin[i];
+    }
+    const bool below = value_at(&line, 0) < 0;
+    const double t = square ? find(&line, (const double[]){0, 1}).root : bisect(&line, 0, 1, below);
+    for (int i = 0; i < 3; i++) {
+        out[i] = line.origin[i] + t * line.way[i];
+    }
+    return t < INFINITY && (square || (value_at(&line, 1) < 0) != below);
+}
+
+struct place {
+    double at[3];
+};
+
+/* The caller frees the result. */
+static struct place *surface_points(struct random *random, const struct equation_field *field,
+                                    const char *text, size_t count)
+{
+    struct equation_errors errors;
+    struct equation *equation = equation_read(text, equation_letters, &errors);
+    struct place *points = memory_alloc(count, sizeof *points);
+
+    for (size_t found = 0; found < count;) {
+        found += surface_point(random, equation, field->half, field->square, points[found].at);
+    }
+    free(equation);
+    return points;
+}
+
+static double nearest(const struct place *points, size_t count, const double p[3])
+{
+    double square = INFINITY;
+
+    for (size_t i = 0; i < count; i++) {
+        const double x = points[i].at[0] - p[0], y = points[i].at[1] - p[1],
+                     z = points[i].at[2] - p[2];
+        square = fmin(square, x * x + y * y + z * z);
+    }
+    return sqrt(square);
+}
+
+static void bounds_are_below_the_distance(void **state)
+{
+    const char *asked = getenv("EQUATION_POINTS");
+    const size_t places = asked ? (size_t)atoi(asked) : PLACES;
+    struct random random = {.state = 7};
+    char text[TEXT];
+    (void)state;
+
+    for (int i = 0; i < FIELDS; i++) {
+        read_text(&fields[i], text);
+        struct scene *scene = scene_of(&fields[i], text, "=");
+        struct place *points = surface_points(&random, &fields[i], text, 10 * places);
+        const clock_t begin = clock();
+        struct field *field = compile_field(scene);
+        const double ms = 1e3 * (double)(clock() - begin) / CLOCKS_PER_SEC;
+        double kept = 0;
+        for (size_t k = 0; k < places; k++) {
+            double p[3];
+            random_place(&random, fields[i].half, p);
+            const double d = fabs(field_distance(field, p));
+            const double distance = nearest(points, 10 * places, p);
+            if (d > distance + 1e-3) {
+                fail_msg("%s at (%.9g, %.9g, %.9g): %g, but a point of the surface at %g",
+                         fields[i].name, p[0], p[1], p[2], d, distance);
+            }
+            kept += d / distance / (double)places;
+        }
+        print_message("# %-13s %.2f of the distance is kept; compiled in %.2f ms\n", fields[i].name,
+                      kept, ms);
+        free(points);
+        field_unref(field);
+        scene_destroy(scene);
+    }
+}
+
 /* --- what is unresolved --- */
 
 static void keep(void *data, const struct equation_quality *quality)
@@ -352,7 +455,7 @@ static int stop(void **state)
 
 int main(void)
 {
-    static struct CMUnitTest tests[FIELDS + 1];
+    static struct CMUnitTest tests[FIELDS + 2];
     const char *asked = getenv("EQUATION_ROWS"), *only = getenv("EQUATION_FIELD");
     size_t n = 0;
 
@@ -361,6 +464,7 @@ int main(void)
         tests[n++] = (struct CMUnitTest){fields[i].name, rays_end_at_the_first_root, NULL, NULL,
                                          (void *)&fields[i]};
     }
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(bounds_are_below_the_distance);
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(unresolved_rays_are_told);
     if (only) {
         cmocka_set_test_filter(only);

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The distances of implicit equations are lower bounds: within them the function does not change
  * its sign. Their signs are the function's, the engine agrees with the evaluator in C, and where
- * surfaces have a known distance the bound comes near it. Every function has a row here. */
+ * surfaces have a known distance the bound comes near it. Every function has a row here.
+ *
+ * EQUATION_CASES=50000: so many ranges of each function, and random equations, ten boxes each. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -206,6 +208,102 @@ static void the_clip_is_the_distance_beyond_its_margin(void **state)
     }
 }
 
+/* --- random equations --- */
+
+enum { RANDOM_EQUATIONS = 100, BOXES = 10, RANDOM_DEPTH = 4 };
+
+static int cases(int usual)
+{
+    const char *asked = getenv("EQUATION_CASES");
+
+    return asked ? atoi(asked) : usual;
+}
+
+/* Beyond a jump or a pole a distance may lead by a little. */
+static bool has_jumps(enum equation_name name)
+{
+    return name == EQUATION_TAN || name == EQUATION_SIGN || name == EQUATION_FLOOR ||
+           name == EQUATION_CEIL;
+}
+
+static const char *const leaves[] = {"x", "y", "z", "x", "y", "z", "a"};
+static const char *const forms[] = {
+    "(@ + @)", "(@ - @)",   "(@)*(@)",   "(@)/((@)^2 + 0.2)",     "(@)^2",    "(@)^3",
+    "-(@)^4",  "min(@, @)", "max(@, @)", "atan2(@, (@)^2 + 0.1)", "(@)^2^0.5"};
+enum { LEAVES = sizeof leaves / sizeof leaves[0], FORMS = sizeof forms / sizeof forms[0] };
+
+static void write_random(struct random *random, int depth, FILE *out)
+{
+    size_t pick = random_below(random, FORMS + EQUATION_MIN);
+
+    while (pick >= FORMS && has_jumps((enum equation_name)(pick - FORMS))) {
+        pick = random_below(random, FORMS + EQUATION_MIN);
+    }
+    if (depth == 0) {
+        fputs(leaves[random_below(random, LEAVES)], out);
+    } else if (pick >= FORMS) {
+        fprintf(out, "%s(", equation_functions[pick - FORMS].name);
+        write_random(random, depth - 1, out);
+        fputs(")", out);
+    } else {
+        for (const char *c = forms[pick]; *c; c++) {
+            if (*c == '@') {
+                write_random(random, (int)random_below(random, (size_t)depth), out);
+            } else {
+                fputc(*c, out);
+            }
+        }
+    }
+}
+
+/* The caller frees it. */
+static char *random_equation(struct random *random)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *out = open_memstream(&text, &length);
+
+    fputs("x*y + z*", out);
+    write_random(random, RANDOM_DEPTH, out);
+    fputs(" - ", out);
+    write_random(random, RANDOM_DEPTH, out);
+    fclose(out);
+    return text;
+}
+
+/* The boxes are those around the distances: no point in them is of another sign. */
+static void random_equations_keep_their_sign(void **state)
+{
+    struct random random = {.state = 2026};
+    int free_boxes = 0;
+    const int count = cases(RANDOM_EQUATIONS);
+    (void)state;
+
+    for (int e = 0; e < count; e++) {
+        char *text = random_equation(&random);
+        struct field *field = field_of(text, ",'size':[6,6,6]");
+        struct equation *equation = read(text);
+        for (int i = 0; i < BOXES; i++) {
+            double p[3];
+            random_point(&random, 1.4, p);
+            const double f = equation_value(equation, p, letter_values);
+            const double d = field_distance(field, p);
+            if (!(fabs(f) >= 1e-6) || fabs(d) < 1e-9) {
+                continue; /* as tan(exp(40)), of which no digit is known */
+            }
+            if ((d < 0) != (f < 0) || count_other_side(&random, equation, p, fabs(d), f) > 0) {
+                fail_msg("%s at (%.9g, %.9g, %.9g): distance %g, value %g", text, p[0], p[1], p[2],
+                         d, f);
+            }
+            free_boxes += fabs(d) > 0.003;
+        }
+        free(equation);
+        field_unref(field);
+        free(text);
+    }
+    assert_in_range(free_boxes, BOXES * count / 2, BOXES * count);
+}
+
 /* --- sheets --- */
 
 #define OCTIC(x) "128*" x "^8 - 256*" x "^6 + 160*" x "^4 - 32*" x "^2 + 1"
@@ -368,7 +466,7 @@ static void ranges_hold_values_and_slopes(void **state)
 
     for (int name = 0; name < EQUATION_FUNCTIONS; name++) {
         struct code *code = range_code((enum equation_name)name);
-        for (int i = 0; i < POINTS; i++) {
+        for (int i = 0; i < cases(POINTS); i++) {
             assert_true(range_holds((enum equation_name)name, code, &random));
         }
         code_destroy(code);
@@ -396,9 +494,9 @@ static void the_engine_agrees(void **state)
     (void)state;
 
     for (size_t e = 0; e < EQUATIONS; e++) {
-        static const char *const forms[] = {"", ",'mode':'sheet','thickness':0.1",
+        static const char *const modes[] = {"", ",'mode':'sheet','thickness':0.1",
                                             ",'clip':'ball','radius':1.2"};
-        struct field *field = field_of(equations[e].text, forms[e % 3]);
+        struct field *field = field_of(equations[e].text, modes[e % 3]);
         float points[POINTS][3], got[POINTS];
         for (int i = 0; i < POINTS; i++) {
             double p[3];
@@ -420,6 +518,22 @@ static void the_engine_agrees(void **state)
         }
         field_unref(field);
     }
+}
+
+/* A slider compiles nothing. */
+static void letters_and_sizes_are_numbers(void **state)
+{
+    static const char text[] = "sin(a*x) + b*y = exp(z)*c";
+    struct field *first = field_of(text, ""),
+                 *other = field_of(text, ",'b':2.5,'c':-1,'size':[3,1,2],'thickness':0.3"),
+                 *more = field_of("sin(a*x) + b*y = exp(z)*c*c", "");
+    (void)state;
+
+    assert_true(first->structure_hash == other->structure_hash);
+    assert_true(first->structure_hash != more->structure_hash);
+    field_unref(first);
+    field_unref(other);
+    field_unref(more);
 }
 
 static double to_ball(const double p[3])
@@ -471,9 +585,11 @@ int main(void)
         cmocka_unit_test(every_function_has_a_row),
         cmocka_unit_test(ranges_hold_values_and_slopes),
         cmocka_unit_test(the_sign_holds_within_the_distance),
+        cmocka_unit_test(random_equations_keep_their_sign),
         cmocka_unit_test(the_clip_is_the_distance_beyond_its_margin),
         cmocka_unit_test(sheets_are_thin_and_whole),
         cmocka_unit_test(the_engine_agrees),
+        cmocka_unit_test(letters_and_sizes_are_numbers),
         cmocka_unit_test(the_bound_comes_near),
     };
 
