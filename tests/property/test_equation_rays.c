@@ -33,10 +33,10 @@
 #include "tests/support/random_scene.h"
 #include "tests/support/text_file.h"
 
-enum { SIDE = 256, ROWS = 2, SAMPLES = 384, REFINEMENTS = 60, THREADS = 2, TEXT = 8192 };
+enum { SIDE = 256, ROWS = 1, SAMPLES = 384, REFINEMENTS = 60, THREADS = 2, TEXT = 8192 };
 
 #define DEPTH 0.01 /* of the clip's half side: more is wrong */
-#define ROOT 1e-9  /* of the next samples' values: so little is 0 where f only touches it */
+#define ROOT 1e-16 /* of the next samples' values: so little is 0 where f only touches it */
 #define LOW 0.0005 /* parts of the rays that may be wrong */
 #define HIGH 0.003 /* the same of polynomials of degree 9 to 18, sums of hundreds of terms */
 
@@ -313,7 +313,7 @@ static void rays_end_at_the_first_root(void **state)
 
 /* --- bounds --- */
 
-enum { PLACES = 200 };
+enum { PLACES = 100 };
 
 static void random_place(struct random *random, double half, double out[3])
 {

@@ -242,9 +242,11 @@ static void write_random(struct random *random, int depth, FILE *out)
     if (depth == 0) {
         fputs(leaves[random_below(random, LEAVES)], out);
     } else if (pick >= FORMS) {
-        fprintf(out, "%s(", equation_functions[pick - FORMS].name);
+        /* Of a constant that log() does not know, no digit is known later either. */
+        const bool is_log = pick - FORMS == EQUATION_LOG;
+        fprintf(out, "%s(%s", equation_functions[pick - FORMS].name, is_log ? "0.1 + (" : "");
         write_random(random, depth - 1, out);
-        fputs(")", out);
+        fputs(is_log ? ")^2)" : ")", out);
     } else {
         for (const char *c = forms[pick]; *c; c++) {
             if (*c == '@') {
