@@ -9,8 +9,8 @@
 #define CELL_NEAR 0.15f        /* half of the smallest, as a part of the distance to a surface */
 #define CELL_SHORT 3           /* such a tape is not made shorter */
 #define CELL_RUN 4             /* operations that take as long as it does to begin a tape */
-#define WORN_USES 4            /* a cube whose tape was used so often has smaller ones, */
-#define WORN_TAPE 24           /* if it is as long as this */
+#define WORN_RUN 256           /* a cube that has run so many operations has smaller ones, */
+#define WORN_TAPE 24           /* if its tape is as long as this */
 #define CELL_LIMIT (1 << 18)   /* with more cubes, */
 #define TAPES_LIMIT (1 << 26)  /* or words of tapes, of all threads, these are made anew */
 #define WASTED_LIMIT (1 << 21) /* words of tapes that are not used, which are let be */
@@ -336,7 +336,7 @@ static void use(struct cells *cells, int32_t at)
     struct cell *cell = &cells->at[at];
 
     if (has_smaller(cell) || cell->count < WORN_TAPE || cell->bits == 0 ||
-        ++cell->uses < WORN_USES) {
+        ++cell->uses * cell->count < WORN_RUN) {
         return;
     }
     const struct cell *parent = &cells->at[cell->parent];
