@@ -109,6 +109,11 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
         {.param = {"seq", SMALL, .doc = "The view meant."}},
         {.param = {"through", PARAM_BOOL,
           .doc = "true: what is behind it is listed too."}})},
+    [MESSAGE_BOUNDS] = {"bounds", "Asks how large nodes are.", MEMBERS(
+        {.param = {"bounds", SMALL, .doc = "Comes back with the answer."}, .required = true},
+        {.param = {"nodes", .max = LIMIT_ISOLATED,
+          .doc = "Their ids. Absent, or none in the scene: all."},
+         .kind = MEMBER_NODES, INTO(nodes)})},
     [MESSAGE_ACK] = {"ack", "A frame was shown.", MEMBERS(
         {.param = {"frame", SMALL, .doc = "Its number."}, .required = true})},
     [MESSAGE_RETRY] = {"retry", "What was too slow, or crashed, is tried again.", MEMBERS(
@@ -186,6 +191,12 @@ static const struct message_type server_messages[] = {
           .doc = "Where it was asked for: ids of the shapes whose surfaces the ray passes, into"
                  " solids and out of them, the nearest first."},
          .kind = MEMBER_NODES})},
+    {"bounded", "A box in the world around what is to be seen of nodes.", MEMBERS(
+        {.param = {"bounds", SMALL, .doc = "Number of the question."}, .required = true},
+        REVISION,
+        {.param = {"low", PARAM_VEC3,
+          .doc = "Least coordinates, or null: nothing is to be seen, or it has no end."}},
+        {.param = {"high", PARAM_VEC3, .doc = "Greatest coordinates, or null."}})},
     {"compiling", "The newest state is being made ready; the picture is of an older one.", MEMBERS(
         REVISION,
         {.param = {"over", PARAM_BOOL, .doc = "It can be drawn, or never will be."},

@@ -18,6 +18,7 @@ enum message_kind {
     MESSAGE_UNDO,
     MESSAGE_REDO,
     MESSAGE_PICK,
+    MESSAGE_BOUNDS,
     MESSAGE_ACK,
     MESSAGE_RETRY,
     MESSAGE_THUMBNAILS,
@@ -32,7 +33,7 @@ struct message {
     cJSON *json; /* the whole object, checked: members known, types and ranges right */
     /* Its records and lists of ids: */
     struct render_request view;            /* MESSAGE_VIEW: camera, section and isolate alone */
-    struct id_set nodes, large, materials; /* MESSAGE_THUMBNAILS */
+    struct id_set nodes, large, materials; /* MESSAGE_THUMBNAILS; MESSAGE_BOUNDS: nodes */
 };
 
 /* Reads one client message; pre-scan included. On success the caller calls message_finish. */

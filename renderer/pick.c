@@ -56,6 +56,15 @@ void pick_field_unref(struct pick_field *field)
     }
 }
 
+bool pick_bounds(const struct pick_field *field, double out_low[3], double out_high[3])
+{
+    const struct bounds *box = &field->geometry.field->bounds;
+
+    memcpy(out_low, box->low, sizeof box->low);
+    memcpy(out_high, box->high, sizeof box->high);
+    return !bounds_is_empty(box) && bounds_is_finite(box);
+}
+
 static void at(const double origin[3], const double direction[3], double t, double out[3])
 {
     for (int i = 0; i < 3; i++) {

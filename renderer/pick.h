@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What is under a place of a picture, asked of the C evaluator: no GL and no render process. */
+/* What is under a place of a picture, and how large it is, asked of the C evaluator: no GL and no
+ * render process. */
 #ifndef RENDERER_PICK_H
 #define RENDERER_PICK_H
 
@@ -16,6 +17,9 @@ struct pick_field *pick_field_create(const struct scene *scene, const char *cons
                                      size_t isolated_count, struct error *err);
 struct pick_field *pick_field_ref(struct pick_field *field);
 void pick_field_unref(struct pick_field *field); /* NULL: nothing */
+
+/* A box in the world around what is to be seen. False: there is nothing, or it has no end. */
+bool pick_bounds(const struct pick_field *field, double out_low[3], double out_high[3]);
 
 struct pick_question {
     const struct record *camera;  /* camera_type; NULL: the scene's */

@@ -21,7 +21,9 @@ struct question {
     struct question *next;
     struct session *session; /* NULL: it asks no longer */
     struct account *account; /* of the session */
-    double pick, x, y;
+    double number;           /* by which its answer is known */
+    bool bounds;             /* of what `view` isolates; else what is at x, y */
+    double x, y;
     bool through;
     struct render_request view;
 };
@@ -67,34 +69,48 @@ static void make_room(struct picker *picker, const struct session *session)
     }
 }
 
-bool picker_ask(struct session *session, const cJSON *message, struct error *err)
+static struct question *add_question(struct session *session, double number)
 {
     struct picker *picker = session->hub->picker;
+
+    make_room(picker, session);
+    struct question *question = memory_alloc(1, sizeof *question);
+    struct question **end = &picker->first;
+    question->session = session;
+    question->account = accounts_join(&picker->accounts, session->id);
+    question->number = number;
+    while (*end) {
+        end = &(*end)->next;
+    }
+    *end = question;
+    pthread_cond_signal(&picker->work);
+    return question;
+}
+
+bool picker_ask(struct session *session, const cJSON *message, struct error *err)
+{
     const struct stream_view *view =
         stream_find_view(session->stream, (uint32_t)json_member_number(message, "seq", 0));
 
     if (!view) {
         return error_set(err, ERROR_INVALID, "/seq", "there was no view yet");
     }
-    make_room(picker, session);
-    struct question *question = memory_alloc(1, sizeof *question);
-    struct question **end = &picker->first;
-    *question = (struct question){
-        .session = session,
-        .account = accounts_join(&picker->accounts, session->id),
-        .pick = json_member_number(message, "pick", 0),
-        .x = json_member_number(message, "x", 0),
-        .y = json_member_number(message, "y", 0),
-        .through = json_member_bool(message, "through", false),
-    };
+    struct question *question = add_question(session, json_member_number(message, "pick", 0));
+    question->x = json_member_number(message, "x", 0);
+    question->y = json_member_number(message, "y", 0);
+    question->through = json_member_bool(message, "through", false);
     render_request_copy(&question->view, &view->picture);
     render_request_see_from(&question->view, &session->room->scene->camera);
-    while (*end) {
-        end = &(*end)->next;
-    }
-    *end = question;
-    pthread_cond_signal(&picker->work);
     return true;
+}
+
+void picker_ask_bounds(struct session *session, const struct message *message)
+{
+    struct question *question =
+        add_question(session, json_member_number(message->json, "bounds", 0));
+
+    question->bounds = true;
+    id_set_copy(&question->view.isolate, &message->nodes);
 }
 
 void picker_forget(struct session *session)
@@ -243,9 +259,9 @@ static struct pick_result look(const struct pick_field *field, const struct ques
     return field ? pick_at(field, &asked) : (struct pick_result){0};
 }
 
-static cJSON *vector_or_null(const struct pick_result *result, const double v[3])
+static cJSON *vector_or_null(bool known, const double v[3])
 {
-    return result->hit ? cJSON_CreateDoubleArray(v, 3) : cJSON_CreateNull();
+    return known ? cJSON_CreateDoubleArray(v, 3) : cJSON_CreateNull();
 }
 
 static cJSON *through(const struct pick_result *result)
@@ -258,23 +274,53 @@ static cJSON *through(const struct pick_result *result)
     return ids;
 }
 
+static cJSON *answer_begin(const char *type, const char *number, const struct question *question,
+                           uint64_t revision)
+{
+    cJSON *message = message_begin(type);
+
+    cJSON_AddNumberToObject(message, number, question->number);
+    cJSON_AddNumberToObject(message, "revision", (double)revision);
+    return message;
+}
+
 static struct shared_buffer *picked_message(const struct question *question, uint64_t revision,
                                             const struct pick_result *result)
 {
-    cJSON *message = message_begin("picked");
+    cJSON *message = answer_begin("picked", "pick", question, revision);
 
-    cJSON_AddNumberToObject(message, "pick", question->pick);
-    cJSON_AddNumberToObject(message, "revision", (double)revision);
     cJSON_AddItemToObject(message, "node",
                           *result->node ? cJSON_CreateString(result->node) : cJSON_CreateNull());
-    cJSON_AddItemToObject(message, "position", vector_or_null(result, result->position));
-    cJSON_AddItemToObject(message, "normal", vector_or_null(result, result->normal));
+    cJSON_AddItemToObject(message, "position", vector_or_null(result->hit, result->position));
+    cJSON_AddItemToObject(message, "normal", vector_or_null(result->hit, result->normal));
     cJSON_AddItemToObject(message, "distance",
                           result->hit ? cJSON_CreateNumber(result->distance) : cJSON_CreateNull());
     if (question->through) {
         cJSON_AddItemToObject(message, "through", through(result));
     }
     return message_print(message);
+}
+
+static struct shared_buffer *bounded_message(const struct question *question, uint64_t revision,
+                                             const struct pick_field *field)
+{
+    cJSON *message = answer_begin("bounded", "bounds", question, revision);
+    double low[3], high[3];
+    const bool known = field && pick_bounds(field, low, high);
+
+    cJSON_AddItemToObject(message, "low", vector_or_null(known, low));
+    cJSON_AddItemToObject(message, "high", vector_or_null(known, high));
+    return message_print(message);
+}
+
+static struct shared_buffer *answer_to(const struct question *question, uint64_t revision,
+                                       const struct pick_field *field)
+{
+    if (question->bounds) {
+        return bounded_message(question, revision, field);
+    }
+    const struct pick_result result = look(field, question);
+    return picked_message(question, revision, &result);
 }
 
 /* Under the lock, which it lets go for the work. */
@@ -289,11 +335,13 @@ static void answer(struct picker *picker, const struct question *question)
     struct pick_field *field = picks->field ? pick_field_ref(picks->field) : NULL;
 
     hub_unlock(picker->hub);
-    const struct pick_result result = look(field, question);
+    struct shared_buffer *message = answer_to(question, revision, field);
     pick_field_unref(field);
     hub_lock(picker->hub);
     if (question->session) {
-        session_say(question->session, picked_message(question, revision, &result));
+        session_say(question->session, message);
+    } else {
+        shared_buffer_unref(message);
     }
 }
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Picks: which node is under the pointer. A thread of its own answers them without the worker, so
- * that a click never waits for a picture. Each session has an account of the thread's time, and the
- * one that took the least is next (protocol/accounts.h). Who asks without end has half of the time
- * at most, also where nobody else asks, because drawing needs the processors too. */
+/* Picks: which node is under the pointer; and bounds: how large nodes are. A thread of its own
+ * answers them without the worker, so that a click never waits for a picture. Each session has an
+ * account of the thread's time, and the one that took the least is next (protocol/accounts.h). Who
+ * asks without end has half of the time at most, also where nobody else asks, because drawing needs
+ * the processors too. */
 #ifndef SERVER_PICKER_H
 #define SERVER_PICKER_H
 
@@ -14,6 +15,7 @@
 
 struct error;
 struct hub;
+struct message;
 struct picker;
 struct room;
 struct session;
@@ -29,6 +31,8 @@ void picker_destroy(struct picker *picker); /* NULL: nothing */
 /* Queues a checked `pick` message; the session gets the answer. False and `err`: it has no view
  * yet. */
 bool picker_ask(struct session *session, const cJSON *message, struct error *err);
+/* The same of a `bounds` message, for which it needs no view. */
+void picker_ask_bounds(struct session *session, const struct message *message);
 /* Drops all picks of the session. */
 void picker_forget(struct session *session);
 void picker_finish_room(struct room *room);

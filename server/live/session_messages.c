@@ -120,6 +120,9 @@ static void handle(struct session *session, const struct message *message)
     case MESSAGE_PICK:
         pick(session, message->json);
         break;
+    case MESSAGE_BOUNDS:
+        picker_ask_bounds(session, message);
+        break;
     case MESSAGE_RETRY:
         retry(session, message->json);
         break;

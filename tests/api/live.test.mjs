@@ -583,6 +583,13 @@ describe('frames', () => {
         await live.close();
     });
 
+    test('how large a node is', async () => {
+        const live = await open();
+        live.say({ type: 'bounds', bounds: 7, nodes: ['ball'] });
+        assert.deepEqual((await live.next('bounded', { bounds: 7 })).high, [1, 1, 1]);
+        await live.close();
+    });
+
     test('of many questions at once the newest are answered, in their order', async () => {
         const live = await open();
         live.look({ width: 100, height: 100, camera: { position: [0, 0, 6], target: [0, 0, 0] } });

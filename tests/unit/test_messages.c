@@ -86,6 +86,8 @@ static void valid_messages_are_accepted(void **state)
     assert_accepted("{'type':'redo','edit':3}", MESSAGE_REDO);
     assert_accepted("{'type':'pick','pick':1,'x':0,'y':10.5,'seq':4}", MESSAGE_PICK);
     assert_accepted("{'type':'pick','pick':1,'x':0,'y':10.5,'through':true}", MESSAGE_PICK);
+    assert_accepted("{'type':'bounds','bounds':1}", MESSAGE_BOUNDS);
+    assert_accepted("{'type':'bounds','bounds':1,'nodes':['a','b']}", MESSAGE_BOUNDS);
     assert_accepted("{'type':'ack','frame':1}", MESSAGE_ACK);
     assert_accepted("{'type':'retry','place':'/nodes/a'}", MESSAGE_RETRY);
     assert_accepted("{'type':'thumbnails'}", MESSAGE_THUMBNAILS);

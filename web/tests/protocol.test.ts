@@ -140,7 +140,7 @@ test("every message that the server sends is known, others are passed over", () 
         README.indexOf("### Frames"),
     );
     const types = [...table.matchAll(/^\| `(\w+)` \|/gm)].map(([, type = ""]) => type);
-    expect(types.length).toBe(9);
+    expect(types.length).toBe(10);
     for (const type of types) {
         expect(readMessage(JSON.stringify({ type }))).toEqual({ type });
     }
