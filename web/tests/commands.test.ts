@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-import { expect, test } from "vitest";
+import { expect, test, vi } from "vitest";
 import type { App } from "../src/model/actions.ts";
 import { addNode, whatAdding } from "../src/model/add.ts";
 import { paste } from "../src/model/clipboard.ts";
@@ -52,6 +52,8 @@ function page(selection: readonly string[] = []) {
         undo: () => void done.push("undo"),
         redo: () => void done.push("redo"),
         aspect: () => 1.5,
+        bounds: (nodes) =>
+            Promise.resolve(nodes[0] === "hat" ? { low: [1, 2, 3], high: [3, 4, 5] } : null),
         writeClipboard: (text) => {
             clipboard.text = text;
         },
@@ -460,12 +462,16 @@ test("Escape peels one layer at a time", () => {
     expect(run("escape")).not.toBeNull();
 });
 
-test("the camera moves without an edit until it is saved", () => {
+test("the camera moves without an edit until it is saved", async () => {
     const { run, stores, done } = page(["head"]);
+    const target = () => stores.camera.getState().camera.target;
     run("camera.orbit.left");
     run("camera.frame");
+    await vi.waitFor(() => expect(target()).toEqual([0, 1.3, 0])); /* no box is known */
     expect(stores.camera.getState().own).toBe(true);
-    expect(stores.camera.getState().camera.target).toEqual([0, 1.3, 0]);
+    stores.view.setState({ selection: ["hat"] });
+    run("camera.frame");
+    await vi.waitFor(() => expect(target()).toEqual([2, 3, 4]));
     expect(done).toEqual([]);
     run("camera.save");
     expect(done).toEqual(["set camera"]);

@@ -9,6 +9,7 @@ import {
     distance,
     dolly,
     frame,
+    frameBox,
     orbit,
     pan,
     pointUnder,
@@ -236,6 +237,37 @@ test("framing shows the whole ball, high or wide", () => {
         const horizontal = Math.atan(Math.tan(vertical) * aspect);
         expect(half).toBeLessThan(Math.min(vertical, horizontal));
         expect(half).toBeGreaterThan(0.7 * Math.min(vertical, horizontal));
+    }
+});
+
+/* From the middle of the view to its edge along an axis of the picture, 1. */
+function placeIn(camera: Camera, aspect: number, p: Vector): [number, number] {
+    const { right, up, forward } = axes(camera);
+    const from = subtract(p, camera.position);
+    const half =
+        camera.height === null
+            ? Math.tan((camera.fov * Math.PI) / 360) * dot(from, forward)
+            : camera.height / 2;
+    return [dot(from, right) / half / aspect, dot(from, up) / half];
+}
+
+test("framing a box leaves the same room around it, however it is turned", () => {
+    const low: Vector = [2, -1, 0.5];
+    const high: Vector = [2.5, 5, 1];
+    for (const aspect of [0.4, 1, 2.5]) {
+        for (const seen of [CAMERA, FLAT, orbit(CAMERA, 1, 0.4)]) {
+            const framed = frameBox(seen, { low, high }, aspect);
+            close(framed.target, [2.25, 2, 0.75]);
+            const reach = [low, high].flatMap((x) =>
+                [low, high].flatMap((y) =>
+                    [low, high].flatMap((z) =>
+                        placeIn(framed, aspect, [x[0], y[1], z[2]]).map(Math.abs),
+                    ),
+                ),
+            );
+            expect(Math.max(...reach)).toBeLessThan(0.9);
+            expect(Math.max(...reach)).toBeGreaterThan(0.75);
+        }
     }
 });
 

@@ -14,6 +14,7 @@ import { decodeGuide } from "./guide.ts";
 import { Meter } from "./meter.ts";
 import { Presenter, type Surface } from "./present.ts";
 import {
+    type BoundsMessage,
     type ClientMessage,
     type FrameHeader,
     frameState,
@@ -49,7 +50,7 @@ export type Order =
     | { readonly kind: "resync" }
     /* What the page holds, to resume there. */
     | { readonly kind: "at"; readonly revision: number; readonly epoch: string | number }
-    | { readonly kind: "send"; readonly message: OutgoingEdit | RetryMessage }
+    | { readonly kind: "send"; readonly message: BoundsMessage | OutgoingEdit | RetryMessage }
     | ({ readonly kind: "pick" } & Omit<PickMessage, "type" | "seq">)
     /* `camera`: also where it is the document's, which a view leaves out. */
     | { readonly kind: "view"; readonly view: ViewState; readonly camera: Camera }

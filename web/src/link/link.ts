@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The page's side of a live scene: connects, edits, picks, shows. Keeps the stores up to date.
  * Socket, decoding and presentation run in a worker where the browser allows it. */
+import type { Box } from "../model/camera.ts";
 import { paramAt } from "../model/document.ts";
 import {
     EMPTY_HISTORY,
@@ -18,20 +19,22 @@ import type { Schema, Value } from "../model/schema.ts";
 import * as sessions from "../model/session.ts";
 import { EMPTY_DOCUMENT_STATE, IDLE_LINK, type LinkState, type Stores } from "../model/stores.ts";
 import { text } from "../model/texts.ts";
+import { vectorOf } from "../model/transform.ts";
 import { checkValue } from "../model/values.ts";
 import { type Author, randomId } from "./author.ts";
 import type { Report } from "./engine.ts";
 import { type Host, startHost } from "./host.ts";
 import { Motion } from "./motion.ts";
 import { Notices } from "./notices.ts";
-import { Picks } from "./picks.ts";
 import {
+    type BoundedMessage,
     type CompilingMessage,
     type PickedMessage,
     type ServerMessage,
     SUBPROTOCOL,
     TOKEN_PREFIX,
 } from "./protocol.ts";
+import { Questions } from "./questions.ts";
 import { ThumbnailStore, type Thumbnails } from "./thumbnails.ts";
 import { Viewer } from "./viewer.ts";
 
@@ -67,6 +70,9 @@ export interface Link {
     pick(x: number, y: number, through?: boolean): Promise<PickedMessage>;
     /* The same, but not while another answer is due, which it would take the place of: null. */
     pickIdle(x: number, y: number): Promise<PickedMessage | null>;
+    /* A box around what is to be seen of nodes, in the world; of all without ids. Null: nothing is,
+     * it has no end, or the scene is not live. */
+    bounds(nodes: readonly string[]): Promise<Box | null>;
     /* What was given up at a place, because it was too slow or crashed, is tried again. */
     tryAgain(place: string): void;
     /* Small pictures of nodes and materials. */
@@ -91,7 +97,8 @@ class SceneLink implements Link {
     /* Groups of edits are this page's, not those of the author's page before. */
     readonly #page = randomId();
     readonly #viewer: Viewer;
-    readonly #picks: Picks;
+    readonly #picks = new Questions<PickedMessage>();
+    readonly #bounds = new Questions<BoundedMessage>();
     readonly #notices: Notices;
     readonly #motion: Motion;
     readonly thumbnails: ThumbnailStore;
@@ -108,7 +115,6 @@ class SceneLink implements Link {
         this.#options = options;
         this.#host = startHost((report) => this.#take(report));
         this.#viewer = new Viewer(stores, this.#host, () => this.#session !== null);
-        this.#picks = new Picks(this.#host);
         this.#notices = new Notices(stores);
         this.#motion = new Motion(stores);
         this.thumbnails = new ThumbnailStore(
@@ -146,7 +152,7 @@ class SceneLink implements Link {
             this.#flush();
         }
         this.#session = null;
-        this.#picks.fail();
+        this.#failQuestions();
         this.thumbnails.clear();
         this.#host.send({ kind: "close" });
         const { schema } = this.#stores.document.getState();
@@ -208,7 +214,7 @@ class SceneLink implements Link {
         this.#stores.link.setState(next);
         if (this.#session && (state === "offline" || state === "refused")) {
             this.#session = sessions.disconnect(this.#session);
-            this.#picks.fail();
+            this.#failQuestions();
         }
         if (state === "offline" && attempts >= ATTEMPTS_BEFORE_PROBE) {
             void this.#probe();
@@ -234,7 +240,10 @@ class SceneLink implements Link {
     #message(message: ServerMessage): void {
         switch (message.type) {
             case "picked":
-                this.#picks.answer(message);
+                this.#picks.answer(message.pick, message);
+                break;
+            case "bounded":
+                this.#bounds.answer(message.bounds, message);
                 break;
             case "compiling":
                 this.#compiling(message);
@@ -487,11 +496,29 @@ class SceneLink implements Link {
         if (!pixel || this.#stores.link.getState().connection !== "live") {
             return Promise.reject(new Error("not connected"));
         }
-        return this.#picks.ask(pixel, through);
+        return this.#picks.ask((number) =>
+            this.#host.send({ kind: "pick", pick: number, ...pixel, through }),
+        );
     }
 
     pickIdle(x: number, y: number): Promise<PickedMessage | null> {
         return this.#picks.waiting ? Promise.resolve(null) : this.pick(x, y);
+    }
+
+    async bounds(nodes: readonly string[]): Promise<Box | null> {
+        if (this.#stores.link.getState().connection !== "live") {
+            return null;
+        }
+        this.#flush();
+        const { low, high } = await this.#bounds.ask((bounds) =>
+            this.#host.send({ kind: "send", message: { type: "bounds", bounds, nodes } }),
+        );
+        return low && high ? { low: vectorOf(low), high: vectorOf(high) } : null;
+    }
+
+    #failQuestions(): void {
+        this.#picks.fail();
+        this.#bounds.fail();
     }
 }
 

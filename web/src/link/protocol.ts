@@ -53,6 +53,13 @@ export interface PickMessage {
     readonly through?: boolean;
 }
 
+export interface BoundsMessage {
+    readonly type: "bounds";
+    readonly bounds: number;
+    /* Ids; none: all of the scene. */
+    readonly nodes: readonly string[];
+}
+
 export interface AckMessage {
     readonly type: "ack";
     readonly frame: number;
@@ -84,6 +91,7 @@ export type ClientMessage =
     | ViewMessage
     | OutgoingEdit
     | PickMessage
+    | BoundsMessage
     | AckMessage
     | ThumbnailsMessage
     | AckThumbnailsMessage
@@ -112,6 +120,15 @@ export interface PickedMessage {
     readonly distance: number | null;
     /* Where it was asked for: shapes whose surfaces the ray passes, the nearest first. */
     readonly through?: readonly string[];
+}
+
+export interface BoundedMessage {
+    readonly type: "bounded";
+    readonly bounds: number;
+    readonly revision: number;
+    /* Null: nothing is to be seen, or it has no end. */
+    readonly low: readonly number[] | null;
+    readonly high: readonly number[] | null;
 }
 
 export interface CompilingMessage {
@@ -149,6 +166,7 @@ export type ServerMessage =
     | (Extract<SessionMessage, { type: "welcome" }> & WelcomeExtra)
     | Exclude<SessionMessage, { type: "welcome" }>
     | PickedMessage
+    | BoundedMessage
     | CompilingMessage
     | NoticeMessage
     | ByeMessage;
@@ -160,6 +178,7 @@ const SERVER_TYPES = {
     changed: true,
     rejected: true,
     picked: true,
+    bounded: true,
     compiling: true,
     notice: true,
     bye: true,

@@ -3,10 +3,12 @@
 import { ballOf } from "./bounds.ts";
 import {
     axes,
+    type Box,
     type Camera,
     distance,
     dolly,
     frame,
+    frameBox,
     orbit,
     pan,
     printCamera,
@@ -35,6 +37,8 @@ export interface App {
     redo(): void;
     /* Width over height of the picture. */
     aspect(): number;
+    /* A box around what is to be seen of nodes, or of all without ids; null where none is known. */
+    bounds(nodes: readonly string[]): Promise<Box | null>;
     writeClipboard(text: string): void;
     readClipboard(): Promise<string>;
     /* Saves the document as a file; opens the chooser for some, or for a folder. */
@@ -198,12 +202,20 @@ export function moveCamera(app: Pick<App, "stores">, change: (camera: Camera) =>
     app.stores.camera.setState(({ camera }) => ({ camera: change(camera), own: true }));
 }
 
-export function frameNodes(app: App, ids?: readonly string[]): void {
+/* All that is shown, where no nodes are named. */
+export async function frameNodes(app: App, ids?: readonly string[]): Promise<void> {
     const { document, schema } = app.stores.document.getState();
-    if (document) {
-        const ball = ballOf(document, schema, ids);
-        moveCamera(app, (camera) => frame(camera, ball, app.aspect()));
+    const { isolated } = app.stores.view.getState();
+    const nodes = ids ?? isolated;
+    if (!document) {
+        return;
     }
+    const few = nodes.length <= limitOf(schema, "isolated", 256);
+    const box = few ? await app.bounds(nodes).catch(() => null) : null;
+    const ball = ballOf(document, schema, nodes.length > 0 ? nodes : undefined);
+    moveCamera(app, (camera) =>
+        box ? frameBox(camera, box, app.aspect()) : frame(camera, ball, app.aspect()),
+    );
 }
 
 export function copyNodes(app: App): void {

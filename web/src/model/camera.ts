@@ -155,17 +155,52 @@ export interface Ball {
     readonly radius: number;
 }
 
+/* Around what fills the view. */
+const ROOM = 1.15;
+
 /* Looks at a ball from where the camera is, so that it fills the view. `aspect` = width/height. */
 export function frame(camera: Camera, ball: Ball, aspect: number): Camera {
     const half = (camera.fov * Math.PI) / 360;
     const narrow = aspect < 1 ? Math.atan(Math.tan(half) * aspect) : half;
-    const away = Math.max(NEAREST, (1.15 * ball.radius) / Math.sin(narrow));
+    const away = Math.max(NEAREST, (ROOM * ball.radius) / Math.sin(narrow));
     const { forward } = axes(camera);
     return {
         ...camera,
         target: ball.center,
         position: subtract(ball.center, scale(forward, away)),
-        height: camera.height === null ? null : (2.3 * ball.radius) / Math.min(1, aspect),
+        height: camera.height === null ? null : (2 * ROOM * ball.radius) / Math.min(1, aspect),
+    };
+}
+
+/* Along the axes of the world. */
+export interface Box {
+    readonly low: Vector;
+    readonly high: Vector;
+}
+
+/* The same of a box, whose corners come as near to the view's edges as there is room beside them. */
+export function frameBox(camera: Camera, { low, high }: Box, aspect: number): Camera {
+    const center = scale(add(low, high), 0.5);
+    const { right, up, forward } = axes(camera);
+    const half = Math.tan((camera.fov * Math.PI) / 360);
+    let away = NEAREST;
+    let height = NEAREST;
+    for (let i = 0; i < 8; i++) {
+        const corner: Vector = [
+            (i & 1 ? high : low)[0],
+            (i & 2 ? high : low)[1],
+            (i & 4 ? high : low)[2],
+        ];
+        const from = subtract(corner, center);
+        const tall = ROOM * Math.max(Math.abs(dot(from, up)), Math.abs(dot(from, right)) / aspect);
+        away = Math.max(away, tall / half - dot(from, forward));
+        height = Math.max(height, 2 * tall);
+    }
+    return {
+        ...camera,
+        target: center,
+        position: subtract(center, scale(forward, away)),
+        height: camera.height === null ? null : height,
     };
 }
 

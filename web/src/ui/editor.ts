@@ -39,6 +39,7 @@ export function createEditor(): Editor {
         undo: () => link.undo(),
         redo: () => link.redo(),
         aspect: () => (picture ? picture.clientWidth / Math.max(1, picture.clientHeight) : 1.5),
+        bounds: (nodes) => link.bounds(nodes),
         writeClipboard,
         readClipboard,
         download: () => void saveDocument(editor),
