@@ -170,7 +170,11 @@ test('a dragged number changes its own field and nothing else of the page', asyn
         const outside = ['[data-testid=tree]', '.resources', '.crumbs'];
         for (const place of outside) {
             const options = { subtree: true, childList: true, attributes: true, characterData: true };
-            new MutationObserver(() => window.touched.add(place)).observe(
+            /* Thumbnails come when they are drawn, and the dragged node has a new one in the end. */
+            const tell = ({ type, target }) =>
+                (target.closest ? target : target.parentElement)?.closest('.thumbnail') ||
+                window.touched.add(`${place}: ${type} of ${target.outerHTML ?? target.data}`);
+            new MutationObserver((records) => records.forEach(tell)).observe(
                 document.querySelector(place),
                 options,
             );
