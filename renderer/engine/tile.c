@@ -89,46 +89,73 @@ static void note_squares(struct hand *hand, vb m, vi left, vi top, int side)
     hand->noted->squares = squares;
 }
 
-static void take_values(struct seen_square *square, const struct noted *noted, int number)
-{
-    const char *const end = noted->values + noted->value_bytes;
-    const struct noted_value *value;
-    size_t bytes = 0;
+enum { PART_SQUARES = SQUARES * SQUARES };
 
-    for (const char *at = noted->values; at < end; at += noted_value_bytes(value)) {
-        value = (const void *)at;
-        bytes += value->squares >> number & 1 ? noted_value_bytes(value) : 0;
-    }
-    square->values = memory_alloc(bytes, 1);
-    for (const char *at = noted->values; at < end; at += noted_value_bytes(value)) {
-        value = (const void *)at;
-        if (value->squares >> number & 1) {
-            memcpy(square->values + square->bytes_of_values, at, noted_value_bytes(value));
-            square->bytes_of_values += noted_value_bytes(value);
+static const struct cell *noted_cell(const struct hand *hand, uint32_t word)
+{
+    const struct cells *space = &hand->lanes.spaces[word >> NOTED_SPACE];
+
+    return &space->at[word & ((1 << NOTED_SPACE) - 1)];
+}
+
+/* With room for the cubes that it has used. */
+static struct seen_square *make_square(const struct hand *hand, int x, int y, size_t cubes)
+{
+    const struct engine_rect inner = hand->inner;
+    struct seen_square *square = memory_alloc(1, sizeof *square + cubes * sizeof square->used[0]);
+
+    square->rect =
+        (struct engine_rect){hand->left + inner.x + x, hand->top + inner.y + y,
+                             smaller(SQUARE, inner.width - x), smaller(SQUARE, inner.height - y)};
+    square->edit = hand->canvas->cubes->edit;
+    square->times = cubes_times(hand->lanes.spaces);
+    square->thread = (uint8_t)hand->number;
+    return square;
+}
+
+/* Each noted cube to the squares that have used it. */
+static void take_cubes(const struct hand *hand, struct seen_square *const made[PART_SQUARES])
+{
+    const struct noted *noted = hand->noted;
+
+    for (size_t i = 0; i < noted->count; i++) {
+        const uint32_t word = noted->cubes[i];
+        const struct cell *cell = noted_cell(hand, word);
+        for (uint32_t left = cell->run | cell->found; left; left &= left - 1) {
+            const int number = __builtin_ctz(left);
+            struct seen_square *square = made[number];
+            square->used[square->count++] = word | (cell->run >> number & 1 ? NOTED_RUN : 0) |
+                                            (cell->found >> number & 1 ? NOTED_FOUND : 0);
         }
     }
 }
 
-/* The cubes that a square has used. */
-static struct seen_square *make_square(struct hand *hand, int number)
+/* Each noted value to the squares that it is for. */
+static void take_values(const struct noted *noted, struct seen_square *const made[PART_SQUARES])
 {
-    const struct noted *noted = hand->noted;
-    const struct cells *spaces = hand->lanes.spaces;
-    struct seen_square *square =
-        memory_alloc(1, sizeof *square + noted->count * sizeof square->used[0]);
+    const char *const end = noted->values + noted->value_bytes;
+    size_t bytes[PART_SQUARES] = {0};
+    const struct noted_value *value;
 
-    for (size_t i = 0; i < noted->count; i++) {
-        const uint32_t word = noted->cubes[i];
-        const struct cell *cell = &spaces[word >> NOTED_SPACE].at[word & ((1 << NOTED_SPACE) - 1)];
-        const uint32_t uses = (cell->run >> number & 1 ? NOTED_RUN : 0) |
-                              (cell->found >> number & 1 ? NOTED_FOUND : 0);
-        if (uses) {
-            square->used[square->count++] = word | uses;
+    for (const char *at = noted->values; at < end; at += noted_value_bytes(value)) {
+        value = (const void *)at;
+        for (uint32_t left = value->squares; left; left &= left - 1) {
+            bytes[__builtin_ctz(left)] += noted_value_bytes(value);
         }
     }
-    square->materials = noted->materials[number];
-    take_values(square, noted, number);
-    return memory_resize(square, 1, sizeof *square + square->count * sizeof square->used[0]);
+    for (int i = 0; i < PART_SQUARES; i++) {
+        if (made[i]) {
+            made[i]->values = memory_alloc(bytes[i], 1);
+        }
+    }
+    for (const char *at = noted->values; at < end; at += noted_value_bytes(value)) {
+        value = (const void *)at;
+        for (uint32_t left = value->squares; left; left &= left - 1) {
+            struct seen_square *square = made[__builtin_ctz(left)];
+            memcpy(square->values + square->bytes_of_values, at, noted_value_bytes(value));
+            square->bytes_of_values += noted_value_bytes(value);
+        }
+    }
 }
 
 /* `times`: of the cubes, before the part was drawn. Where they were made anew meanwhile, it is not
@@ -136,21 +163,29 @@ static struct seen_square *make_square(struct hand *hand, int number)
 static void end_notes(struct hand *hand, uint32_t times)
 {
     struct noted *noted = hand->noted;
-    const struct engine_rect inner = hand->inner;
+    struct seen_square *made[PART_SQUARES] = {NULL};
+    size_t counts[PART_SQUARES] = {0};
 
-    for (int y = 0; y < inner.height && times == cubes_times(hand->lanes.spaces); y += SQUARE) {
-        for (int x = 0; x < inner.width; x += SQUARE) {
-            struct seen_square *square = make_square(hand, x / SQUARE + SQUARES * (y / SQUARE));
-            square->rect = (struct engine_rect){hand->left + inner.x + x, hand->top + inner.y + y,
-                                                smaller(SQUARE, inner.width - x),
-                                                smaller(SQUARE, inner.height - y)};
-            square->edit = hand->canvas->cubes->edit;
-            square->times = times;
-            square->thread = (uint8_t)hand->number;
-            noted->made = memory_one_more((void *)noted->made, noted->made_count, sizeof(void *));
-            noted->made[noted->made_count++] = square;
+    if (times != cubes_times(hand->lanes.spaces)) {
+        return;
+    }
+    for (size_t i = 0; i < noted->count; i++) {
+        const struct cell *cell = noted_cell(hand, noted->cubes[i]);
+        for (uint32_t left = cell->run | cell->found; left; left &= left - 1) {
+            counts[__builtin_ctz(left)]++;
         }
     }
+    for (int y = 0; y < hand->inner.height; y += SQUARE) {
+        for (int x = 0; x < hand->inner.width; x += SQUARE) {
+            const int number = x / SQUARE + SQUARES * (y / SQUARE);
+            made[number] = make_square(hand, x, y, counts[number]);
+            made[number]->materials = noted->materials[number];
+            noted->made = memory_one_more((void *)noted->made, noted->made_count, sizeof(void *));
+            noted->made[noted->made_count++] = made[number];
+        }
+    }
+    take_cubes(hand, made);
+    take_values(noted, made);
 }
 
 /* Of pixels of the tile. Blocks are those of the picture, whatever the tile. */
