@@ -472,6 +472,13 @@ test("the camera moves without an edit until it is saved", async () => {
     stores.view.setState({ selection: ["hat"] });
     run("camera.frame");
     await vi.waitFor(() => expect(target()).toEqual([2, 3, 4]));
+    stores.view.setState({ selection: ["head"] });
+    run("camera.frame");
+    const { scene } = stores.document.getState();
+    stores.document.setState({ scene: "another" });
+    await new Promise((done) => setTimeout(done));
+    expect(target()).toEqual([2, 3, 4]);
+    stores.document.setState({ scene });
     expect(done).toEqual([]);
     run("camera.save");
     expect(done).toEqual(["set camera"]);

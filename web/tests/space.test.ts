@@ -4,6 +4,7 @@ import { expect, test } from "vitest";
 import { ballOf } from "../src/model/bounds.ts";
 import {
     axes,
+    type Box,
     type Camera,
     cameraOf,
     distance,
@@ -23,6 +24,7 @@ import { moveNodes } from "../src/model/edits.ts";
 import type { Json } from "../src/model/json.ts";
 import { landingBeside, landingTransform } from "../src/model/landing.ts";
 import {
+    add,
     anglesOf,
     apply,
     dot,
@@ -31,6 +33,7 @@ import {
     type Matrix,
     normalize,
     rotation,
+    scale,
     standingUnder,
     subtract,
     toWorld,
@@ -251,18 +254,20 @@ function placeIn(camera: Camera, aspect: number, p: Vector): [number, number] {
     return [dot(from, right) / half / aspect, dot(from, up) / half];
 }
 
-test("framing a box leaves the same room around it, however it is turned", () => {
-    const low: Vector = [2, -1, 0.5];
-    const high: Vector = [2.5, 5, 1];
+const BOXES: readonly Box[] = [
+    { low: [2, -1, 0.5], high: [2.5, 5, 1] } /* high */,
+    { low: [-3, 0, -4], high: [5, 0.5, 3] } /* wide and deep */,
+];
+
+test.each(BOXES)("framing a box leaves the same room around it, however it is turned", (box) => {
+    const ends = [box.low, box.high];
     for (const aspect of [0.4, 1, 2.5]) {
         for (const seen of [CAMERA, FLAT, orbit(CAMERA, 1, 0.4)]) {
-            const framed = frameBox(seen, { low, high }, aspect);
-            close(framed.target, [2.25, 2, 0.75]);
-            const reach = [low, high].flatMap((x) =>
-                [low, high].flatMap((y) =>
-                    [low, high].flatMap((z) =>
-                        placeIn(framed, aspect, [x[0], y[1], z[2]]).map(Math.abs),
-                    ),
+            const framed = frameBox(seen, box, aspect);
+            close(framed.target, scale(add(box.low, box.high), 0.5));
+            const reach = ends.flatMap((x) =>
+                ends.flatMap((y) =>
+                    ends.flatMap((z) => placeIn(framed, aspect, [x[0], y[1], z[2]]).map(Math.abs)),
                 ),
             );
             expect(Math.max(...reach)).toBeLessThan(0.9);

@@ -204,7 +204,7 @@ export function moveCamera(app: Pick<App, "stores">, change: (camera: Camera) =>
 
 /* All that is shown, where no nodes are named. */
 export async function frameNodes(app: App, ids?: readonly string[]): Promise<void> {
-    const { document, schema } = app.stores.document.getState();
+    const { document, schema, scene } = app.stores.document.getState();
     const { isolated } = app.stores.view.getState();
     const nodes = ids ?? isolated;
     if (!document) {
@@ -212,6 +212,9 @@ export async function frameNodes(app: App, ids?: readonly string[]): Promise<voi
     }
     const few = nodes.length <= limitOf(schema, "isolated", 256);
     const box = few ? await app.bounds(nodes).catch(() => null) : null;
+    if (app.stores.document.getState().scene !== scene) {
+        return; /* another one was opened meanwhile */
+    }
     const ball = ballOf(document, schema, nodes.length > 0 ? nodes : undefined);
     moveCamera(app, (camera) =>
         box ? frameBox(camera, box, app.aspect()) : frame(camera, ball, app.aspect()),
