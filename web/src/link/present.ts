@@ -11,6 +11,9 @@ export interface Surface {
     getContext(kind: "2d", settings: { alpha: boolean }): Brush | null;
 }
 
+/* Left, top, width and height, in the image and on the surface. */
+type Columns = [number, number, number, number, number, number, number, number];
+
 interface Brush {
     imageSmoothingEnabled: boolean;
     imageSmoothingQuality: "low" | "medium" | "high";
@@ -21,6 +24,7 @@ interface Brush {
         width: number,
         height: number,
     ): void;
+    drawImage(image: ImageBitmap, ...fromAndTo: Columns): void;
     clearRect(x: number, y: number, width: number, height: number): void;
 }
 
@@ -103,10 +107,20 @@ export class Presenter {
         const width = header.viewWidth * scale;
         const left = (this.#width - width) / 2;
         if (left > 0) {
-            brush.clearRect(0, 0, this.#width, this.#height);
+            this.#drawEdges(brush, bitmap, left);
         }
         brush.imageSmoothingEnabled = bitmap.width !== width || bitmap.height !== this.#height;
         brush.imageSmoothingQuality = "low";
         brush.drawImage(bitmap, left, 0, width, this.#height);
+    }
+
+    /* Beside a narrower frame its outermost columns go on until the next frame. */
+    #drawEdges(brush: Brush, bitmap: ImageBitmap, left: number): void {
+        for (const [from, to] of [
+            [0, 0],
+            [bitmap.width - 1, this.#width - left],
+        ] as const) {
+            brush.drawImage(bitmap, from, 0, 1, bitmap.height, to, 0, left, this.#height);
+        }
     }
 }
