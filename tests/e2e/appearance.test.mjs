@@ -218,7 +218,7 @@ test('effects are switches, and change the picture', async () => {
 test('a click says what is sharp', async () => {
     const when = await open({ camera: { ...SCENE.camera, position: [0, 0, 7], aperture: 0.2 } });
     await setup('Camera');
-    await page.getByRole('button', { name: 'Focus on what is clicked next' }).click();
+    await page.getByRole('button', { name: 'Pick what to focus on' }).click();
     await page.getByText('Click what is to be sharp').waitFor();
     const box = await picture(page).boundingBox();
     /* The front of the crate: 7 away, less half of its side. */

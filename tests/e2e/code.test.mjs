@@ -248,7 +248,7 @@ const notice = () => page.locator('.notice');
 test('what is too slow is told as that, with its place by name', async () => {
     await openTold(1200);
     tellTooSlow();
-    await page.getByTestId('broken').getByText('show where').waitFor();
+    await page.getByTestId('broken').getByText('Show where').waitFor();
     await page.locator('.notice-place', { hasText: 'blob · code' }).waitFor();
     await page.getByTestId('broken').click();
     await panel().locator('.code-state[data-bad]', { hasText: 'too slow' }).waitFor();

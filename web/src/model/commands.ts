@@ -508,7 +508,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "camera.focus",
-        title: "Focus on what is clicked next",
+        title: "Pick what to focus on",
         group: "camera",
         whyNot: needsLens,
         run: show({ aiming: true }),

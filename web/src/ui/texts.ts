@@ -359,6 +359,7 @@ const texts = {
     "view.isolated": "Isolated: {name}",
     "view.isolatedMore": "Isolated: {name} and {count} more",
     "view.showAll": "Show all",
+    "view.panels": "Show the panels",
     "view.aim": "Click what is to be sharp. Esc leaves it.",
 
     "state.waiting": "waiting for the first picture",
@@ -382,7 +383,7 @@ const texts = {
     "state.brokenLine": "code has an error: line {line}",
     "state.broken": "code has {count} errors",
     "state.broken.one": "code has an error",
-    "state.where": "show where",
+    "state.where": "Show where",
     "state.software": "software renderer",
     "state.softwareDoc": "No GPU is in use. Pictures are drawn by {name}.",
     "state.engine": "the processors of the server",

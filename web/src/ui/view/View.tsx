@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The picture's place: the link shows frames in it, the input turns pointers into camera moves and
  * picks; React draws only what lies over it. */
+import { Eye } from "lucide-react";
 import { useCallback, useEffect, useRef, useState } from "react";
 import { Grid } from "../../overlay/grid.ts";
 import { Hands } from "../../overlay/hands.ts";
@@ -65,6 +66,7 @@ export function View() {
                     <BrokenPill />
                     <StatisticsPill />
                     <SoftwareChip />
+                    <Panels />
                 </div>
             </div>
         </div>
@@ -174,6 +176,23 @@ function Aim() {
         <div role="status" className="view-aim">
             {aiming && <p className="glass view-hint">{t(touch ? "view.aimTouch" : "view.aim")}</p>}
         </div>
+    );
+}
+
+/* The way back to the panels, where there is no keyboard. */
+function Panels() {
+    const { stores } = useEditor();
+    return (
+        useView((view) => view.chromeHidden) && (
+            <button
+                type="button"
+                className="glass pill"
+                onClick={() => stores.view.setState({ chromeHidden: false })}
+            >
+                <Eye size={14} aria-hidden="true" />
+                {t("view.panels")}
+            </button>
+        )
     );
 }
 
