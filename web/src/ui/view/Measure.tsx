@@ -31,7 +31,7 @@ function Figures({ by }: { by: Vector }) {
             <strong>{shortNumber(length(by))}</strong>
             {["x", "y", "z"].map((axis, i) => (
                 <span key={axis} data-axis={axis}>
-                    {axis} {shortNumber(by[i] ?? 0)}
+                    {axis.toUpperCase()} {shortNumber(by[i] ?? 0)}
                 </span>
             ))}
         </>
