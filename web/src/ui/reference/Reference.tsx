@@ -177,7 +177,7 @@ function Page({ topic }: { topic: Topic }) {
             )}
             {(source || words) && (
                 <footer>
-                    {words && <p>{t("reference.words", { words })}</p>}
+                    {words && <p>{t("reference.words", { words: words.replaceAll(" ", ", ") })}</p>}
                     {source && <p>{t("reference.source", { source })}</p>}
                 </footer>
             )}
