@@ -129,12 +129,13 @@ export const CHANGES = [
     }],
     ['carried row', async (page) => {
         await tab(page, 'Nodes');
-        const from = await row(page, 'crown').boundingBox();
-        const to = await row(page, 'pillar').boundingBox();
+        const from = await row(page, 'pillar').boundingBox();
+        const to = await row(page, 'jug').boundingBox();
         await page.mouse.move(from.x + 60, from.y + from.height / 2);
         await page.mouse.down();
         await page.mouse.move(to.x + 60, to.y + 3, { steps: 8 });
         await page.mouse.move(to.x + 64, to.y + 2, { steps: 3 });
+        await page.locator('.tree-line').waitFor();
     }, { clean: (page) => page.mouse.up() }],
 ];
 

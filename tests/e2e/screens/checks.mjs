@@ -151,6 +151,13 @@ function doubleRings({ nameOf }) {
         : [];
 }
 
+/* A drag over the page marks no words of it; what is marked in a field counts as collapsed. */
+function markedTexts() {
+    const marks = getSelection();
+    const own = document.activeElement.closest('[contenteditable]') !== null;
+    return marks.isCollapsed || own ? [] : [`words are marked: ${marks.toString().trim().slice(0, 48)}`];
+}
+
 /* Controls outside of the window, under something else, or over each other. */
 function lostControls({ parentsOf, nameOf, isSeen, isEmpty, overlap, scrolls, isOutside, shownPart }) {
     const CONTROLS =
@@ -212,12 +219,12 @@ function lostControls({ parentsOf, nameOf, isSeen, isEmpty, overlap, scrolls, is
 function look(page) {
     const { scrollWidth, clientWidth } = document.documentElement;
     const wide = scrollWidth > clientWidth ? [`the page is ${scrollWidth - clientWidth} pixels too wide`] : [];
-    const checks = [cutTexts, cutValues, darkOnGlass, clippedChoices, doubleRings, lostControls];
+    const checks = [cutTexts, cutValues, darkOnGlass, clippedChoices, doubleRings, markedTexts, lostControls];
     return [...new Set([...checks.flatMap((find) => find(page)), ...wide])];
 }
 
 const LOOK = `(() => {
-    ${[tools, cutTexts, cutValues, darkOnGlass, clippedChoices, doubleRings, lostControls, look].join('\n')}
+    ${[tools, cutTexts, cutValues, darkOnGlass, clippedChoices, doubleRings, markedTexts, lostControls, look].join('\n')}
     return look(tools(${JSON.stringify({ SLACK, LAP })}));
 })()`;
 
