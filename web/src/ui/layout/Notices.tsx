@@ -16,6 +16,9 @@ import "../view/view.css";
 const MOST_SHOWN = 3;
 const STAY_MS = 6000;
 
+/* A number and its unit stay together. */
+const UNIT_SPACE = /(?<=\d) (?=m?s\b|[KMG]iB|%)/g;
+
 const icons = { info: Info, warning: TriangleAlert, error: CircleAlert };
 
 export function Notices() {
@@ -88,7 +91,7 @@ const NoticeCard = memo(function NoticeCard({ notice }: { notice: Notice }) {
         <div className="notice popup" data-level={level} data-code={code}>
             <Icon size={16} aria-hidden="true" />
             <div className="notice-text">
-                {message}
+                {message.replaceAll(UNIT_SPACE, "\u00a0")}
                 {count > 1 && ` (${t("notices.times", { count })})`}
                 {place !== "" && <div className="notice-place">{where}</div>}
                 {(acts.length > 0 || known) && (
