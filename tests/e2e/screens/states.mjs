@@ -64,6 +64,10 @@ const OTHERS = [
     }, { scene: null, path: '/s/nowhere' }],
     ['example, still life', async () => {}, { scene: example('still-life') }],
     ['example, duck', async () => {}, { scene: example('duck') }],
+    ['old picture in another shape', async (page) => {
+        page.hold = (message) => typeof message !== 'string';
+        await graph(page);
+    }, { scene: STUDIO, tampered: true }],
 ];
 
 const rows = (group, list, more = {}) =>
