@@ -30,6 +30,7 @@ struct operation {
     uint8_t op;           /* enum field_op */
     bool mixes;           /* FIELD_COMBINE: surfaces mix, or one is chosen */
     bool prunes;          /* FIELD_COMBINE: an operand may be left out */
+    bool lesser;          /* FIELD_COMBINE: the lesser distance, nothing else */
     bool unsteady;        /* FIELD_SHAPE: it has the numbers FIELD_UNSTEADY, FIELD_LOOSE */
     uint8_t rule, kernel; /* FIELD_COMBINE: enum sdf_rule; its choice */
     uint16_t kind;        /* among the program's */
