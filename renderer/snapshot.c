@@ -108,14 +108,15 @@ static bool is_unreadable(const struct renderer *renderer, const char *id, struc
     return out->kind != ERROR_NONE;
 }
 
-/* `problem`: why it has no picture; ERROR_NONE: there is none that it wants and has not. */
+/* `problem`: why it has no picture; ERROR_NONE: there is none that it wants and has not. Nothing is
+ * said of a scene that names no picture yet. */
 static void surround(struct renderer *renderer, struct snapshot *snapshot, const char *image,
                      struct engine_map *maps, const struct error *problem)
 {
     if (problem->kind != ERROR_NONE) {
         environment_leave_out(&snapshot->frame);
     }
-    if (snapshot->warning.error.kind == ERROR_NONE) {
+    if (snapshot->warning.error.kind == ERROR_NONE && image[0]) {
         snapshot->warning = (struct warning){WARNING_ASSET, *problem};
     }
     snapshot->environment = environments_get(renderer->environments, &snapshot->frame, image, maps,

@@ -154,6 +154,15 @@ describe('files that scenes name', () => {
         live.close();
     });
 
+    test('of a scene that names no file yet nothing is said', async () => {
+        await ask(daemon, 'POST', '/v1/scenes?id=unnamed', scene(''));
+        const live = await Live.open(daemon, 'unnamed');
+        live.look({ width: 32, height: 32, camera: {} });
+        await live.nextFrame((frame) => frame.lossless);
+        assert.deepEqual(live.messages.filter(({ type }) => type === 'notice'), []);
+        live.close();
+    });
+
     test('a picture asked for with its scene has it too', async () => {
         const body = { scene: scene(digest(sides)), width: 16, height: 16, format: 'png' };
         const ask = async (document) =>
