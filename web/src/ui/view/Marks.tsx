@@ -13,8 +13,21 @@ import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import "./view.css";
 
-/* The top of the picture, where the tools lie. */
-const TOOLS = 50;
+/* Half of an icon. */
+const REACH = 12;
+
+/* Whether the tools at the top of the picture lie over a place. */
+function underTools(field: HTMLElement): (x: number, y: number) => boolean {
+    const { left, top } = field.getBoundingClientRect();
+    const tools = field.parentElement?.querySelectorAll(".view-top > :not(.view-space)") ?? [];
+    const boxes = [...tools].map((tool) => tool.getBoundingClientRect());
+    return (x, y) =>
+        boxes.some(
+            (box) =>
+                Math.abs(x + left - (box.left + box.right) / 2) < box.width / 2 + REACH &&
+                y + top < box.bottom + REACH,
+        );
+}
 
 function marksIn(stores: Stores): readonly Mark[] {
     const { document, schema } = stores.document.getState();
@@ -27,11 +40,17 @@ function place(stores: Stores, field: HTMLElement): void {
     const size = { width: field.clientWidth, height: field.clientHeight };
     const projection = camera && projectionOf(camera, size);
     const marks = marksIn(stores);
+    const isHidden = underTools(field);
     for (const element of field.children) {
         const mark = marks.find(({ key }) => key === (element as HTMLElement).dataset.mark);
         const spot = mark && projection?.spotOf(mark.at);
         const inside =
-            spot && spot.x > 0 && spot.y > TOOLS && spot.x < size.width && spot.y < size.height;
+            spot &&
+            spot.x > 0 &&
+            spot.y > 0 &&
+            spot.x < size.width &&
+            spot.y < size.height &&
+            !isHidden(spot.x, spot.y);
         (element as HTMLElement).hidden = !inside;
         if (inside) {
             (element as HTMLElement).style.translate = `${spot.x}px ${spot.y}px`;
@@ -43,7 +62,7 @@ function choose(editor: Editor, { list, name }: Mark): void {
     editor.show(list === null ? { kind: "camera" } : { kind: "resource", list, name });
 }
 
-export function Marks() {
+export default function Marks() {
     const shown = useView(({ preferences, chromeHidden }) => preferences.marks && !chromeHidden);
     return shown ? <Field /> : null;
 }

@@ -19,7 +19,6 @@ import { Crumbs } from "./Crumbs.tsx";
 import { HandTools } from "./HandTools.tsx";
 import { watchHover } from "./hover.ts";
 import { Isolation } from "./Isolation.tsx";
-import { Marks } from "./Marks.tsx";
 import { takeMaterials } from "./materials.ts";
 import { Outputs } from "./Outputs.tsx";
 import { Poster } from "./Poster.tsx";
@@ -30,6 +29,7 @@ import "./view.css";
 
 const Drops = lazyPart(() => import("../drop/Drops.tsx"));
 const UnderMenu = lazyPart(() => import("./UnderMenu.tsx"));
+const Marks = lazyPart(() => import("./Marks.tsx"));
 const Measured = lazyPart(() => import("./Measure.tsx"));
 const MeasuredLine = lazyPart(() => import("./MeasuredLine.tsx"));
 const Section = lazyPart(() => import("./Section.tsx"));
