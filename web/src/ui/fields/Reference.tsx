@@ -54,7 +54,7 @@ export function ReferenceField({
                 options={options}
                 onChange={onCommit}
             />
-            {value !== NOTHING && (
+            {value !== NOTHING && mixed !== "1" && (
                 <Act
                     title={t("reference.edit", { name: value })}
                     icon={SquarePen}
