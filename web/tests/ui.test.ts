@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What of the page needs no page: changes of text, the plane of points, colours of code, files, and
- * parameters in words. */
+/* What of the page needs no page: changes of text, the plane of points, colours of code, files,
+ * parameters in words, and ages. */
 import { StringStream } from "@codemirror/language";
 import { expect, test } from "vitest";
 import { RestError } from "../src/link/rest.ts";
@@ -11,6 +11,7 @@ import { shaderLanguage } from "../src/ui/code/language.ts";
 import { frameOf, type Point, pointAt, ticksOf, toView } from "../src/ui/fields/grid.ts";
 import { problemOf, type TextFile, withoutFolder } from "../src/ui/import.ts";
 import { defaultOf, rangeOf, topicsOf, typeOf } from "../src/ui/reference/topics.ts";
+import { age } from "../src/ui/scenes/age.ts";
 import { rateText } from "../src/ui/view/rate.ts";
 import { choose, random, SCHEMA } from "./fixture.ts";
 
@@ -173,4 +174,11 @@ test("parameters in words", () => {
     const topics = topicsOf(SCHEMA);
     expect(new Set(topics.map(({ key }) => key)).size).toBe(topics.length);
     expect(topics.filter(({ node }) => node)).toHaveLength(SCHEMA.nodes.length);
+});
+
+test("how long ago, in no unit below a minute", () => {
+    const ago = (seconds: number) => age(0, seconds * 1000);
+    expect([-90, 0, 44].map(ago)).toEqual(["now", "now", "now"]);
+    expect([45, 60, 100].map(ago)).toEqual(["1 minute ago", "1 minute ago", "2 minutes ago"]);
+    expect([7200, 86400].map(ago)).toEqual(["2 hours ago", "yesterday"]);
 });

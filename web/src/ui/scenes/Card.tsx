@@ -17,6 +17,9 @@ import "./scenes.css";
 /* How long a deleted scene can be taken back. */
 const UNDO_MS = 10_000;
 
+/* Numbers stay in the line of what they count. */
+const joined = (text: string): string => text.replaceAll(/(\d) /g, "$1\u00a0");
+
 interface ExampleProps {
     example: ExampleEntry;
     onOpen: () => void;
@@ -29,9 +32,9 @@ export function ExampleCard({ example, onOpen }: ExampleProps) {
             <button type="button" className="card-open" onClick={onOpen}>
                 <Picture url={rest.exampleImageUrl(example.id)} />
                 <span className="card-text">
-                    <span className="card-name ellipsis">{example.name || example.id}</span>
+                    <span className="card-name card-doc">{example.name || example.id}</span>
                 </span>
-                <span className="card-meta card-doc">{example.description}</span>
+                <span className="card-meta card-doc">{joined(example.description)}</span>
             </button>
         </li>
     );
@@ -39,11 +42,13 @@ export function ExampleCard({ example, onOpen }: ExampleProps) {
 
 interface SceneProps {
     scene: SceneEntry;
+    /* Of all cards, so that their ages agree. */
+    now: number;
     onChange: () => void;
     onLeave: () => void;
 }
 
-export function SceneCard({ scene, onChange, onLeave }: SceneProps) {
+export function SceneCard({ scene, now, onChange, onLeave }: SceneProps) {
     const editor = useEditor();
     const { rest } = editor;
     const [renaming, setRenaming] = useState(false);
@@ -116,7 +121,7 @@ export function SceneCard({ scene, onChange, onLeave }: SceneProps) {
                 {t("scenes.meta", {
                     count: scene.nodes,
                     nodes: scene.nodes,
-                    age: age(timeOf(scene)),
+                    age: age(timeOf(scene), now),
                 })}
                 {scene.viewers > 0 && ` · ${t("scenes.viewers", { count: scene.viewers })}`}
             </span>

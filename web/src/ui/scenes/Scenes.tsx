@@ -175,6 +175,18 @@ export default function ScenesPage() {
     );
 }
 
+const MINUTE_MS = 60_000;
+
+/* The time, to a minute. */
+function useNow(): number {
+    const [now, setNow] = useState(Date.now);
+    useEffect(() => {
+        const timer = setInterval(() => setNow(Date.now()), MINUTE_MS);
+        return () => clearInterval(timer);
+    }, []);
+    return now;
+}
+
 /* So many of the newest are shown at first. */
 const RECENT = 8;
 
@@ -188,6 +200,7 @@ interface OwnProps {
 /* The newest, or all that fits a search. */
 function Own({ scenes, query, onChange, onLeave }: OwnProps) {
     const [all, setAll] = useState(false);
+    const now = useNow();
     const found = search(scenes, query, ({ name, id }) => ({ name: name || id, words: id }));
     const shown = all || query.trim() !== "" ? found : found.slice(0, RECENT);
     return (
@@ -197,6 +210,7 @@ function Own({ scenes, query, onChange, onLeave }: OwnProps) {
                     <SceneCard
                         key={scene.id}
                         scene={scene}
+                        now={now}
                         onChange={onChange}
                         onLeave={() => onLeave(scene)}
                     />

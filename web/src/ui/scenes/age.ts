@@ -6,15 +6,15 @@ const steps: readonly (readonly [Intl.RelativeTimeFormatUnit, number])[] = [
     ["day", 86400],
     ["hour", 3600],
     ["minute", 60],
-    ["second", 1],
 ];
 
-export function age(time: number, now = Date.now()): string {
-    const seconds = Math.round((time - now) / 1000);
+/* Clocks may differ: nothing is from the future. */
+export function age(time: number, now: number): string {
+    const seconds = Math.max(0, Math.round((now - time) / 1000));
     const format = new Intl.RelativeTimeFormat("en", { numeric: "auto" });
-    if (Math.abs(seconds) < 45) {
+    if (seconds < 45) {
         return format.format(0, "second");
     }
-    const [unit, size] = steps.find(([, size]) => Math.abs(seconds) >= size) ?? ["second", 1];
-    return format.format(Math.round(seconds / size), unit);
+    const [unit, size] = steps.find(([, size]) => seconds >= size) ?? ["minute", 60];
+    return format.format(-Math.round(seconds / size), unit);
 }
