@@ -158,6 +158,16 @@ function markedTexts() {
     return marks.isCollapsed || own ? [] : [`words are marked: ${marks.toString().trim().slice(0, 48)}`];
 }
 
+/* The dot of a changed value stands beside its name. */
+function strayDots({ nameOf, isSeen }) {
+    const SLACK_DOT = 4;
+    const middleOf = (one) => (one.getBoundingClientRect().top + one.getBoundingClientRect().bottom) / 2;
+    return [...document.querySelectorAll('.form-row > .form-reset')]
+        .filter((one) => isSeen(one))
+        .filter((one) => Math.abs(middleOf(one) - middleOf(one.parentElement.querySelector('.form-label'))) > SLACK_DOT)
+        .map((one) => `dot is not beside its name: ${nameOf(one)}`);
+}
+
 /* Controls outside of the window, under something else, or over each other. */
 function lostControls({ parentsOf, nameOf, isSeen, isEmpty, overlap, scrolls, isOutside, shownPart }) {
     const CONTROLS =
@@ -219,12 +229,12 @@ function lostControls({ parentsOf, nameOf, isSeen, isEmpty, overlap, scrolls, is
 function look(page) {
     const { scrollWidth, clientWidth } = document.documentElement;
     const wide = scrollWidth > clientWidth ? [`the page is ${scrollWidth - clientWidth} pixels too wide`] : [];
-    const checks = [cutTexts, cutValues, darkOnGlass, clippedChoices, doubleRings, markedTexts, lostControls];
+    const checks = [cutTexts, cutValues, darkOnGlass, clippedChoices, doubleRings, markedTexts, strayDots, lostControls];
     return [...new Set([...checks.flatMap((find) => find(page)), ...wide])];
 }
 
 const LOOK = `(() => {
-    ${[tools, cutTexts, cutValues, darkOnGlass, clippedChoices, doubleRings, markedTexts, lostControls, look].join('\n')}
+    ${[tools, cutTexts, cutValues, darkOnGlass, clippedChoices, doubleRings, markedTexts, strayDots, lostControls, look].join('\n')}
     return look(tools(${JSON.stringify({ SLACK, LAP })}));
 })()`;
 

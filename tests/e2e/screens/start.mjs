@@ -10,14 +10,25 @@ async function choose(page, button, files) {
     await (await asked).setFiles(files);
 }
 
+/* Pictures are asked for when they come into sight. */
+async function bring(page, found) {
+    await found.evaluate((one) => one.scrollIntoView());
+    await page.waitForFunction(() =>
+        [...document.querySelectorAll('[data-example] img')].every((one) => {
+            const { top, bottom } = one.closest('.card-picture').getBoundingClientRect();
+            return top >= innerHeight || bottom <= 0 || !one.hidden;
+        }),
+    );
+}
+
 const SPHERES = '{"scene": [{"type": "Primitives/Sphere"}]}';
 const BROKEN = '{\n  "model": {"type": "Primitives/Sphere" 5}\n}\n';
 
 export const START = [
     ['start', (page) => page.locator('[data-example] img:not([hidden])').nth(3).waitFor()],
-    ['start, examples', (page) => page.getByTestId('examples').evaluate((one) => one.scrollIntoView())],
-    ['start, lessons', (page) => page.getByText('Lessons', { exact: true }).evaluate((one) => one.scrollIntoView())],
-    ['start, surfaces', (page) => page.getByText('Surfaces by formulas').evaluate((one) => one.scrollIntoView())],
+    ['start, examples', (page) => bring(page, page.getByTestId('examples'))],
+    ['start, lessons', (page) => bring(page, page.getByText('Lessons', { exact: true }))],
+    ['start, surfaces', (page) => bring(page, page.getByText('Surfaces by formulas'))],
     ['start, search', (page) => page.getByPlaceholder('Search scenes and examples').fill('glass')],
     ['start, nothing found', (page) => page.getByPlaceholder('Search scenes and examples').fill('xyzzy')],
     ['start, menu of a scene', async (page) => {
@@ -35,6 +46,7 @@ export const START = [
         await page.getByRole('button', { name: 'Undo' }).waitFor();
     }, { clean: (page) => page.getByRole('button', { name: 'Undo' }).click() }],
     ['start, keys', async (page) => {
+        await page.locator('[data-example]').first().waitFor();
         await page.keyboard.press('?');
         await popup(page, 'dialog');
     }],
