@@ -56,13 +56,21 @@ void pick_field_unref(struct pick_field *field)
     }
 }
 
-bool pick_bounds(const struct pick_field *field, double out_low[3], double out_high[3])
+bool pick_bounds(const struct scene *scene, const char *const *isolated, size_t isolated_count,
+                 double out_low[3], double out_high[3])
 {
-    const struct bounds *box = &field->geometry.field->bounds;
+    const struct field_options options = {
+        .isolated = isolated, .isolated_count = isolated_count, .ended = true};
+    struct geometry geometry;
 
-    memcpy(out_low, box->low, sizeof box->low);
-    memcpy(out_high, box->high, sizeof box->high);
-    return !bounds_is_empty(box) && bounds_is_finite(box);
+    if (!geometry_init(&geometry, scene, &options, NULL)) {
+        return false;
+    }
+    const struct bounds box = geometry_bounds(&geometry);
+    geometry_finish(&geometry);
+    memcpy(out_low, box.low, sizeof box.low);
+    memcpy(out_high, box.high, sizeof box.high);
+    return !bounds_is_empty(&box);
 }
 
 static void at(const double origin[3], const double direction[3], double t, double out[3])

@@ -18,8 +18,10 @@ struct pick_field *pick_field_create(const struct scene *scene, const char *cons
 struct pick_field *pick_field_ref(struct pick_field *field);
 void pick_field_unref(struct pick_field *field); /* NULL: nothing */
 
-/* A box in the world around what is to be seen. False: there is nothing, or it has no end. */
-bool pick_bounds(const struct pick_field *field, double out_low[3], double out_high[3]);
+/* A box in the world around what is to be seen and has an end: operands of unions without one, and
+ * the floor, are left out. False: nothing is left. */
+bool pick_bounds(const struct scene *scene, const char *const *isolated, size_t isolated_count,
+                 double out_low[3], double out_high[3]);
 
 struct pick_question {
     const struct record *camera;  /* camera_type; NULL: the scene's */

@@ -46,6 +46,7 @@ struct builder {
     bool cuts_transmissive; /* and light goes through that */
     bool hiding;            /* a node around is hidden */
     bool within;            /* what comes is not to be looked for in `isolation` */
+    bool ended;             /* what has no end is not to be seen */
     size_t depth;           /* nodes around, through models */
     size_t emitted;         /* nodes so far; those of models count for each use */
     size_t surface_rows;    /* numbers of surfaces so far, by fours */

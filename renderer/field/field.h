@@ -215,6 +215,8 @@ struct field_options {
     const char *const *isolated;
     size_t isolated_count;
     bool patchable; /* field_patch can have it: where nodes stand is kept; not with `isolated` */
+    /* Operands of unions that have no end are not seen, nor is the floor. */
+    bool ended;
 };
 struct field *field_compile_as(const struct scene *scene, const struct field_options *options,
                                struct error *err);

@@ -79,7 +79,7 @@ static void add_floor(struct builder *b, struct result *whole)
 {
     const struct record *environment = &b->scene->environment;
 
-    if (record_number(environment, "floor") == 0 || b->failed) {
+    if (record_number(environment, "floor") == 0 || b->ended || b->failed) {
         return;
     }
     struct node_frame frame = node_frame_create(0, 1, field_floor_slot(b->scene));
@@ -176,6 +176,7 @@ struct field *field_compile_as(const struct scene *scene, const struct field_opt
                               .scene = scene,
                               .drawn = options->drawn,
                               .isolation = isolation,
+                              .ended = options->ended,
                               .sites = patchable ? sites_create() : NULL};
     field_add_material_shaders(&builder);
     const struct result whole = emit_scene(&builder);

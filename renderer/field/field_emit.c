@@ -147,7 +147,7 @@ static struct fold emit_folded(struct builder *b, const struct node *node,
 {
     const enum sdf_rule rule = combine.sdf->rule;
     struct fold fold = {.count = 0};
-    bool cutting = b->cutting;
+    const bool cutting = b->cutting, ended = b->ended;
 
     combine.a = slot;
     combine.b = slot + 1;
@@ -159,9 +159,11 @@ static struct fold emit_folded(struct builder *b, const struct node *node,
         b->cutting = cutting || (fold.count > 0 && rule != SDF_ANY);
         b->cuts_transmissive =
             cutting ? b->cuts_transmissive : fold.whole.transmissive || !fold.whole.shown;
+        b->ended = ended && (rule == SDF_ANY || (rule == SDF_FIRST && i == 0));
         struct result child =
             field_emit(b, node->children[i], frame, slot + fold.whole.solid, FIELD_NOTHING);
         b->cutting = cutting;
+        b->ended = ended;
         fold_child(b, &fold, &combine, &child, rule == SDF_FIRST && i == 0);
     }
     fold.whole.solid = fold.whole.solid && !fold.dead;
@@ -363,6 +365,8 @@ static struct result emit_apart(struct builder *b, const struct node *node,
                                 const struct node_frame *frame, uint16_t slot)
 {
     const struct sdf *sdf = sdf_find(node->type);
+    const bool ended = b->ended;
+    struct result result;
 
     switch (node->type->kind) {
     case KIND_COMBINE:
@@ -370,7 +374,10 @@ static struct result emit_apart(struct builder *b, const struct node *node,
     case KIND_DISTANCE:
         return emit_distance(b, node, sdf, frame, slot);
     default:
-        return emit_domain(b, node, sdf, frame, slot);
+        b->ended = false;
+        result = emit_domain(b, node, sdf, frame, slot);
+        b->ended = ended;
+        return result;
     }
 }
 
@@ -498,7 +505,8 @@ static struct result emit_entered(struct builder *b, const struct node *node,
     if (before != FIELD_NOTHING) {
         guard(b, mark, before, slot, outer, &result.box);
     }
-    if (result.hidden || result.apart || !result.shown) {
+    const bool endless = b->ended && !bounds_is_finite(&result.box);
+    if (result.hidden || result.apart || !result.shown || endless) {
         result.shown = result.transmissive = false;
         builder_hide(b, mark);
     }

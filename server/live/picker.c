@@ -48,14 +48,15 @@ static void question_destroy(struct picker *picker, struct question *question)
 
 /* --- asking --- */
 
-/* Gives up the oldest of a session that has too many. */
-static void make_room(struct picker *picker, const struct session *session)
+/* Gives up the oldest of a session that has too many of a kind: the answer to a newer one tells the
+ * client that this one has none. */
+static void make_room(struct picker *picker, const struct session *session, bool bounds)
 {
     struct question **oldest = NULL;
     int count = 0;
 
     for (struct question **at = &picker->first; *at; at = &(*at)->next) {
-        if ((*at)->session == session) {
+        if ((*at)->session == session && (*at)->bounds == bounds) {
             oldest = oldest ? oldest : at;
             count++;
         }
@@ -69,16 +70,19 @@ static void make_room(struct picker *picker, const struct session *session)
     }
 }
 
-static struct question *add_question(struct session *session, double number)
+/* `kind`: the member of `message` that has its number. */
+static struct question *add_question(struct session *session, const cJSON *message,
+                                     const char *kind, bool bounds)
 {
     struct picker *picker = session->hub->picker;
 
-    make_room(picker, session);
+    make_room(picker, session, bounds);
     struct question *question = memory_alloc(1, sizeof *question);
     struct question **end = &picker->first;
     question->session = session;
     question->account = accounts_join(&picker->accounts, session->id);
-    question->number = number;
+    question->number = json_member_number(message, kind, 0);
+    question->bounds = bounds;
     while (*end) {
         end = &(*end)->next;
     }
@@ -95,7 +99,7 @@ bool picker_ask(struct session *session, const cJSON *message, struct error *err
     if (!view) {
         return error_set(err, ERROR_INVALID, "/seq", "there was no view yet");
     }
-    struct question *question = add_question(session, json_member_number(message, "pick", 0));
+    struct question *question = add_question(session, message, "pick", false);
     question->x = json_member_number(message, "x", 0);
     question->y = json_member_number(message, "y", 0);
     question->through = json_member_bool(message, "through", false);
@@ -106,10 +110,8 @@ bool picker_ask(struct session *session, const cJSON *message, struct error *err
 
 void picker_ask_bounds(struct session *session, const struct message *message)
 {
-    struct question *question =
-        add_question(session, json_member_number(message->json, "bounds", 0));
+    struct question *question = add_question(session, message->json, "bounds", true);
 
-    question->bounds = true;
     id_set_copy(&question->view.isolate, &message->nodes);
 }
 
@@ -146,29 +148,11 @@ void picker_finish_room(struct room *room)
     }
 }
 
-/* --- the field --- */
-
-/* What the room has for this question, or the least recently used, which is emptied for it. */
-static struct picker_field *find_field(struct picker *picker, const struct question *question)
-{
-    struct picker_field *all = question->session->room->picks, *best = all;
-
-    for (int i = 0; i < PICKER_FIELDS; i++) {
-        if (all[i].last_use > 0 && id_set_equal(&all[i].isolate, &question->view.isolate)) {
-            return &all[i];
-        }
-        best = all[i].last_use < best->last_use ? &all[i] : best;
-    }
-    empty_field(best);
-    id_set_copy(&best->isolate, &question->view.isolate);
-    best->last_use = picker->turns;
-    return best;
-}
+/* --- the state --- */
 
 /* A copy of the state that is picked in: the newest, for which it may let go of the lock, or the
- * last good one where that is what is shown. */
-static struct scene *copy_scene(struct room *room, const struct picker_field *picks,
-                                uint64_t *out_revision)
+ * last good one where that is what is shown. NULL: it is of the revision `tried`. */
+static struct scene *copy_scene(struct room *room, uint64_t tried, uint64_t *out_revision)
 {
     const struct scene *good =
         room->scene_error.kind != ERROR_NONE ? last_good_state(room, out_revision) : NULL;
@@ -176,7 +160,7 @@ static struct scene *copy_scene(struct room *room, const struct picker_field *pi
     if (!good) {
         *out_revision = room->revision;
     }
-    if (*out_revision == picks->tried) {
+    if (*out_revision == tried) {
         return NULL;
     }
     if (good) {
@@ -197,15 +181,38 @@ static struct scene *without_code(struct scene *scene)
     return scene;
 }
 
+/* Takes `scene`. NULL where nothing can be read of it. */
+static struct scene *admit(const struct hub *hub, struct scene *scene)
+{
+    return hub->code_refused && code_text_in_scene(scene) ? without_code(scene) : scene;
+}
+
+/* --- the field --- */
+
+/* What the room has for this question, or the least recently used, which is emptied for it. */
+static struct picker_field *find_field(struct picker *picker, const struct question *question)
+{
+    struct picker_field *all = question->session->room->picks, *best = all;
+
+    for (int i = 0; i < PICKER_FIELDS; i++) {
+        if (all[i].last_use > 0 && id_set_equal(&all[i].isolate, &question->view.isolate)) {
+            return &all[i];
+        }
+        best = all[i].last_use < best->last_use ? &all[i] : best;
+    }
+    empty_field(best);
+    id_set_copy(&best->isolate, &question->view.isolate);
+    best->last_use = picker->turns;
+    return best;
+}
+
 /* Takes `scene`. NULL where it is no field. */
 static struct pick_field *make_field(const struct hub *hub, struct scene *scene,
                                      const struct id_set *isolate)
 {
     struct pick_field *field = NULL;
 
-    if (hub->code_refused && code_text_in_scene(scene)) {
-        scene = without_code(scene);
-    }
+    scene = admit(hub, scene);
     if (scene) {
         field = pick_field_create(scene, (const char *const *)isolate->ids, isolate->count, NULL);
     }
@@ -220,7 +227,7 @@ static void renew(struct picker *picker, const struct question *question)
     struct room *room = question->session->room;
     struct picker_field *picks = find_field(picker, question);
     uint64_t revision = 0;
-    struct scene *scene = copy_scene(room, picks, &revision);
+    struct scene *scene = copy_scene(room, picks->tried, &revision);
 
     picks->last_use = picker->turns;
     if (!scene) {
@@ -301,30 +308,46 @@ static struct shared_buffer *picked_message(const struct question *question, uin
     return message_print(message);
 }
 
-static struct shared_buffer *bounded_message(const struct question *question, uint64_t revision,
-                                             const struct pick_field *field)
+/* Takes `scene`. */
+static struct shared_buffer *bounded_message(const struct hub *hub, const struct question *question,
+                                             struct scene *scene, uint64_t revision)
 {
+    const struct id_set *isolate = &question->view.isolate;
     cJSON *message = answer_begin("bounded", "bounds", question, revision);
     double low[3], high[3];
-    const bool known = field && pick_bounds(field, low, high);
 
+    scene = admit(hub, scene);
+    const bool known =
+        scene && pick_bounds(scene, (const char *const *)isolate->ids, isolate->count, low, high);
+    scene_destroy(scene);
     cJSON_AddItemToObject(message, "low", vector_or_null(known, low));
     cJSON_AddItemToObject(message, "high", vector_or_null(known, high));
     return message_print(message);
 }
 
-static struct shared_buffer *answer_to(const struct question *question, uint64_t revision,
-                                       const struct pick_field *field)
+static void say(const struct question *question, struct shared_buffer *message)
 {
-    if (question->bounds) {
-        return bounded_message(question, revision, field);
+    if (question->session) {
+        session_say(question->session, message);
+    } else {
+        shared_buffer_unref(message);
     }
-    const struct pick_result result = look(field, question);
-    return picked_message(question, revision, &result);
 }
 
-/* Under the lock, which it lets go for the work. */
-static void answer(struct picker *picker, const struct question *question)
+/* Under the lock, which it lets go for the work; as answer_pick. Nothing of it is kept: who asks
+ * wants to look at something, once. */
+static void answer_bounds(struct picker *picker, const struct question *question)
+{
+    uint64_t revision = 0;
+    struct scene *scene = copy_scene(question->session->room, UINT64_MAX, &revision);
+
+    hub_unlock(picker->hub);
+    struct shared_buffer *message = bounded_message(picker->hub, question, scene, revision);
+    hub_lock(picker->hub);
+    say(question, message);
+}
+
+static void answer_pick(struct picker *picker, const struct question *question)
 {
     renew(picker, question);
     if (!question->session || !question->session->room) {
@@ -335,14 +358,11 @@ static void answer(struct picker *picker, const struct question *question)
     struct pick_field *field = picks->field ? pick_field_ref(picks->field) : NULL;
 
     hub_unlock(picker->hub);
-    struct shared_buffer *message = answer_to(question, revision, field);
+    const struct pick_result result = look(field, question);
+    struct shared_buffer *message = picked_message(question, revision, &result);
     pick_field_unref(field);
     hub_lock(picker->hub);
-    if (question->session) {
-        session_say(question->session, message);
-    } else {
-        shared_buffer_unref(message);
-    }
+    say(question, message);
 }
 
 /* The oldest of the session that took the least time. NULL: all rest, one until `*out_until`. */
@@ -390,7 +410,11 @@ static void serve(struct picker *picker, struct question *question)
     const int64_t begun_us = clock_thread_us();
 
     picker->current = question;
-    answer(picker, question);
+    if (question->bounds) {
+        answer_bounds(picker, question);
+    } else {
+        answer_pick(picker, question);
+    }
     charge(picker, question, clock_thread_us() - begun_us);
     question_destroy(picker, question);
     picker->current = NULL;

@@ -20,7 +20,7 @@ struct picker;
 struct room;
 struct session;
 
-enum { PICKER_WAITING = 8 }; /* picks of one session; one more drops its oldest */
+enum { PICKER_WAITING = 8 }; /* of a kind, of one session; one more drops its oldest */
 
 struct picker *picker_create(struct hub *hub, struct error *err);
 /* Ends the thread. Waiting picks are never answered. */

@@ -64,16 +64,40 @@ test('a box in the world holds what is to be seen of nodes, and no more', async 
     await live.close();
 });
 
-test('nothing that is to be seen, and nothing without an end, has a box', async () => {
+test('what is hidden, and what has no end, has no box', async () => {
     await ask(daemon, 'POST', '/v1/scenes?id=none', DOCUMENT);
     const live = await Live.open(daemon, 'none');
-    for (const nodes of [['hidden'], ['floor'], undefined]) {
+    for (const nodes of [['hidden'], ['floor']]) {
         const { low, high } = await boundsOf(live, nodes);
         assert.deepEqual([low, high], [null, null], `${nodes}`);
     }
-    live.change([{ op: 'remove', at: '/nodes/floor' }]);
+    await live.close();
+});
+
+test('beside what has no end, the rest has its box', async () => {
+    await ask(daemon, 'POST', '/v1/scenes?id=rest', { ...DOCUMENT, environment: { floor: true } });
+    const live = await Live.open(daemon, 'rest');
     near(await boundsOf(live), [-1, -2, -2], [3, 9, 2]);
     near(await boundsOf(live, ['nobody']), [-1, -2, -2], [3, 9, 2]);
+    near(await boundsOf(live, ['floor', 'ball']), [-1, -2, -2], [3, 2, 2]);
+    live.change([{ op: 'remove', at: '/nodes/floor' }]);
+    near(await boundsOf(live), [-1, -2, -2], [3, 9, 2]);
+    await live.close();
+});
+
+test('picks that come later take no answer from a question for sizes', async () => {
+    const many = Array.from({ length: 3000 }, (_, i) => ({ id: `ball-${i}`, type: 'sphere' }));
+    await ask(daemon, 'POST', '/v1/scenes?id=busy', { format: 'fieldcast/1', root: { id: 'root', type: 'union', children: many } });
+    const live = await Live.open(daemon, 'busy');
+    live.say({ type: 'view', seq: 1, width: 64, height: 48 });
+    for (let i = 1; i <= 40; i += 1) {
+        live.say({ type: 'pick', pick: i, seq: 1, x: 32, y: 24 });
+        if (i === 10) {
+            live.say({ type: 'bounds', bounds: 1000 });
+        }
+    }
+    await live.next('picked', { pick: 40 });
+    near(await live.next('bounded', { bounds: 1000 }), [-0.5, -0.5, -0.5], [0.5, 0.5, 0.5]);
     await live.close();
 });
 

@@ -216,6 +216,63 @@ static void work_is_bounded(void **state)
     pick_field_unref(field);
 }
 
+/* A shape of a box of half edges 0.5, 1 and 1.5 about (2, 0, 0), and one without an end. */
+#define BOX                                                                                        \
+    "{'id':'box','type':'box','params':{'size':[1,2,3]},'transform':{'translation':[2,0,0]}}"
+#define BALL "{'id':'ball','type':'sphere','params':{'radius':0.1}}"
+#define PLANE(id) "{'id':'" id "','type':'plane'}"
+#define SCENE(root) "{'format':'fieldcast/1','root':" root "}"
+#define JOIN(type, ...) "{'id':'" type "','type':'" type "','children':[" __VA_ARGS__ "]}"
+
+static bool bounds_of(const char *text, double low[3], double high[3])
+{
+    struct error err = {0};
+    struct scene *scene = json_text_scene(text, &err);
+
+    assert_non_null(scene);
+    const bool known = pick_bounds(scene, NULL, 0, low, high);
+    scene_destroy(scene);
+    return known;
+}
+
+static void bounds_leave_out_what_has_no_end(void **state)
+{
+    static const char *const texts[] = {
+        SCENE(BOX),
+        SCENE(JOIN("union", BOX "," PLANE("p"))),
+        SCENE(JOIN("group", PLANE("p") "," JOIN("union", PLANE("q") "," BOX))),
+        SCENE(JOIN("round", JOIN("difference", JOIN("union", BOX "," PLANE("p")) "," PLANE("q")))),
+        SCENE(JOIN("union", BOX "," JOIN("repeat", PLANE("p")))),
+        SCENE(JOIN("union", BOX "," JOIN("intersection", PLANE("p") "," PLANE("q")))),
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        const double rounded = i == 3 ? 0.05 : 0;
+        double low[3], high[3];
+        assert_true(bounds_of(texts[i], low, high));
+        for (int axis = 0; axis < 3; axis++) {
+            const double middle = axis == 0 ? 2 : 0, half = 0.5 * (axis + 1) + rounded;
+            assert_float_equal(low[axis], middle - half, 1e-9);
+            assert_float_equal(high[axis], middle + half, 1e-9);
+        }
+    }
+}
+
+/* What a plane bounds has an end, though the plane has none: the ball alone is smaller. */
+static void bounds_hold_what_is_bounded(void **state)
+{
+    double low[3], high[3];
+
+    (void)state;
+    assert_true(bounds_of(SCENE(JOIN("intersection", JOIN("union", PLANE("p") "," BALL) "," BOX)),
+                          low, high));
+    assert_float_equal(high[0], 2.5, 1e-9);
+    assert_float_equal(low[2], -1.5, 1e-9);
+    assert_false(bounds_of(SCENE(PLANE("p")), low, high));
+    assert_false(bounds_of(SCENE(JOIN("union", PLANE("p"))), low, high));
+}
+
 static void *ask_often(void *data)
 {
     struct pick_field *field = data;
@@ -263,6 +320,8 @@ int main(void)
         cmocka_unit_test(picks_list_what_lies_behind),
         cmocka_unit_test(any_camera_can_pick),
         cmocka_unit_test(work_is_bounded),
+        cmocka_unit_test(bounds_leave_out_what_has_no_end),
+        cmocka_unit_test(bounds_hold_what_is_bounded),
         cmocka_unit_test(last_reference_may_go_in_any_thread),
     };
 

@@ -126,7 +126,7 @@ export interface BoundedMessage {
     readonly type: "bounded";
     readonly bounds: number;
     readonly revision: number;
-    /* Null: nothing is to be seen, or it has no end. */
+    /* Null: nothing is to be seen, or nothing of it has an end. */
     readonly low: readonly number[] | null;
     readonly high: readonly number[] | null;
 }
