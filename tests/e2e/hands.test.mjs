@@ -218,8 +218,8 @@ describe('handles of an instance', () => {
         const box = await picture(page).boundingBox();
         return { x: box.x + at.x, y: box.y + at.y, look, box };
     };
-    const openPosts = async () => {
-        id = await stage.scene(POSTS);
+    const openPosts = async (environment) => {
+        id = await stage.scene({ ...POSTS, environment });
         page = await stage.page({ scene: id });
         await settled(page);
     };
@@ -246,13 +246,26 @@ describe('handles of an instance', () => {
         await until(async () => (await stage.document(id)) === start, 'the document as it was');
     });
 
+    /* Where the upper end is seen: from 0, at the top of the picture, to 1. */
+    const upperEnd = async () => {
+        const { y, box } = await handle('high');
+        return (y - box.y) / box.height;
+    };
+
+    test('Home shows all that has an end, beside a floor', async () => {
+        await openPosts({ floor: true, floor_height: -16 });
+        await select('tall');
+        assert.ok((await upperEnd()) < 0, 'at first it is out of sight');
+        await picture(page).focus();
+        await page.keyboard.press('Home');
+        await until(async () => {
+            const end = await upperEnd();
+            return end > 0 && end < 0.12;
+        }, 'the upper end near the edge');
+    });
+
     test('F shows all of an instance, with its own values', async () => {
         await openPosts();
-        /* Where the upper end is seen: from 0, at the top of the picture, to 1. */
-        const upperEnd = async () => {
-            const { y, box } = await handle('high');
-            return (y - box.y) / box.height;
-        };
         const frames = async (node) => {
             await select(node);
             await picture(page).focus();

@@ -2,6 +2,7 @@
 import { expect, test, vi } from "vitest";
 import type { App } from "../src/model/actions.ts";
 import { addNode, whatAdding } from "../src/model/add.ts";
+import type { Box } from "../src/model/camera.ts";
 import { paste } from "../src/model/clipboard.ts";
 import {
     commandById,
@@ -400,13 +401,14 @@ test("to isolate is no edit, and ends by the same key, Escape, or showing all", 
     expect(commandForKey(press("H", "s", "KeyH"), "tree", "no", true)?.id).toBe("node.isolate");
 });
 
-test("a section is no edit, looks at the cut, and ends by the same key or Escape", () => {
+test("a section is no edit, looks at the cut, and ends by the same key or Escape", async () => {
     const { run, stores, done } = page(["head"]);
     const section = () => stores.view.getState().section;
     const { camera } = stores.camera.getState();
     stores.camera.setState({ camera: { ...camera, position: [-9, 1, 2], target: [0, 0, 0] } });
     for (const end of ["view.section", "escape"]) {
         expect(run("view.section")).toBeNull();
+        await vi.waitFor(() => expect(section()).not.toBeNull());
         expect(section()).toMatchObject({ axis: "x", flipped: true });
         expect(run(end)).toBeNull();
         expect(section()).toBeNull();
@@ -416,21 +418,39 @@ test("a section is no edit, looks at the cut, and ends by the same key or Escape
     expect(commandForKey(press("k", "", "KeyK"), "view", "no", true)?.id).toBe("view.section");
 });
 
+test("a section goes through the box of what is shown, where the server knows it", async () => {
+    const { run, stores } = page();
+    run("view.section");
+    await vi.waitFor(() => expect(stores.view.getState().section).not.toBeNull());
+    const { low, high } = stores.view.getState().extent;
+    expect(high[1] - low[1]).toBeCloseTo(high[0] - low[0], 9);
+    run("view.section");
+    await vi.waitFor(() => expect(stores.view.getState().section).toBeNull());
+    stores.view.setState({ isolated: ["hat"] });
+    run("view.section");
+    await vi.waitFor(() => expect(stores.view.getState().section).not.toBeNull());
+    expect(stores.view.getState()).toMatchObject({
+        section: { axis: "x", at: 2, flipped: true },
+        extent: { low: [1, 2, 3], high: [3, 4, 5] },
+    });
+});
+
 test("a section is told to the server as a plane, whichever side is kept", () => {
-    const ball = { center: [1, 2, 3], radius: 2 } as const;
-    const section = sectionSeenFrom([1.5, 9, 3], ball);
+    const box: Box = { low: [-1, 1, 1], high: [3, 3, 5] };
+    const section = sectionSeenFrom([1.5, 9, 3], box);
     expect(section).toEqual({ axis: "y", at: 2, flipped: false });
     expect(printSection({ ...section, at: 2.5 })).toEqual({ normal: [0, 1, 0], offset: 2.5 });
     expect(printSection({ ...section, at: 2.5, flipped: true })).toEqual({
         normal: [0, -1, 0],
         offset: -2.5,
     });
-    expect(sectionAcross({ ...section, flipped: true }, "z", ball)).toEqual({
+    expect(sectionAcross({ ...section, flipped: true }, "z", box)).toEqual({
         axis: "z",
         at: 3,
         flipped: true,
     });
-    expect(sectionRange("x", ball)).toEqual({ low: -1, high: 3 });
+    expect(sectionRange("x", box)).toEqual({ low: -1, high: 3 });
+    expect(sectionRange("y", box)).toEqual({ low: 1, high: 3 });
 });
 
 test("Escape ends an isolation before it deselects", () => {

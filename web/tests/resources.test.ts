@@ -2,6 +2,7 @@
 /* Models, distance functions, shaders: what they declare, who names them, and edits about them. */
 import { expect, test } from "vitest";
 import { addNode, whatAdding } from "../src/model/add.ts";
+import type { Box } from "../src/model/camera.ts";
 import { clip, paste } from "../src/model/clipboard.ts";
 import { declaredParams, whyNotIdentifier, whyNotRows } from "../src/model/declaredParams.ts";
 import {
@@ -450,14 +451,19 @@ test("a whole scene comes as one node with its name and what it needs, no more",
 
 /* --- lights and materials --- */
 
-test("a new light stands beside what is selected and lights it", () => {
-    const values = (selection: string[]) => newLightValues(scene(), SCHEMA, "point", selection);
-    const [x = 0, y = 0, z = 0] = values(["head"]).position as number[];
-    const away = Math.hypot(x, y - 1.3, z);
-    expect(away).toBeGreaterThan(2);
-    expect(Number(values(["head"]).intensity)).toBeCloseTo(Math.PI * away ** 2, 0);
-    expect(values([]).position).not.toEqual(values(["head"]).position);
-    expect(newLightValues(scene(), SCHEMA, "directional", ["head"])).toEqual({});
+test("a new light stands beside what it is for and lights it", () => {
+    const head: Box = { low: [-0.5, 0.8, -0.5], high: [0.5, 1.8, 0.5] };
+    const post: Box = { low: [-0.5, 0.8, -0.5], high: [0.5, 30.8, 0.5] };
+    for (const lit of [head, post]) {
+        const values = newLightValues(SCHEMA, "point", lit);
+        const [x = 0, y = 0, z = 0] = values.position as number[];
+        const height = lit.high[1] - lit.low[1];
+        const away = Math.hypot(x, y - lit.low[1] - height / 2, z);
+        expect(away).toBeGreaterThan(Math.max(2, height));
+        expect(away).toBeLessThan(Math.max(4, 2 * height));
+        expect(Number(values.intensity) / (Math.PI * away ** 2)).toBeCloseTo(1, 1);
+        expect(newLightValues(SCHEMA, "directional", lit)).toEqual({});
+    }
 });
 
 test("a material of a preset has its name, plainly where that is free", () => {

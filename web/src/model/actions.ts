@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* What commands look at and do; the table that names them is commands.ts. */
-import { ballOf } from "./bounds.ts";
+import { ballOf, boxAround } from "./bounds.ts";
 import {
     axes,
+    type Ball,
     type Box,
     type Camera,
     distance,
@@ -202,23 +203,37 @@ export function moveCamera(app: Pick<App, "stores">, change: (camera: Camera) =>
     app.stores.camera.setState(({ camera }) => ({ camera: change(camera), own: true }));
 }
 
-/* All that is shown, where no nodes are named. */
-export async function frameNodes(app: App, ids?: readonly string[]): Promise<void> {
+interface Extent {
+    readonly box: Box;
+    /* The page's rough guess, where the server knows no box. */
+    readonly guess: Ball | null;
+}
+
+/* Of what is to be seen of nodes, or of all without ids; null: there is no scene, or another one was
+ * opened meanwhile. */
+export async function extentOf(app: App, nodes: readonly string[]): Promise<Extent | null> {
     const { document, schema, scene } = app.stores.document.getState();
-    const { isolated } = app.stores.view.getState();
-    const nodes = ids ?? isolated;
-    if (!document) {
-        return;
-    }
     const few = nodes.length <= limitOf(schema, "isolated", 256);
     const box = few ? await app.bounds(nodes).catch(() => null) : null;
-    if (app.stores.document.getState().scene !== scene) {
-        return; /* another one was opened meanwhile */
+    if (!document || app.stores.document.getState().scene !== scene) {
+        return null;
     }
-    const ball = ballOf(document, schema, nodes.length > 0 ? nodes : undefined);
-    moveCamera(app, (camera) =>
-        box ? frameBox(camera, box, app.aspect()) : frame(camera, ball, app.aspect()),
-    );
+    if (box) {
+        return { box, guess: null };
+    }
+    const guess = ballOf(document, schema, nodes.length > 0 ? nodes : undefined);
+    return { box: boxAround(guess), guess };
+}
+
+/* All that is shown, where no nodes are named. */
+export async function frameNodes(app: App, ids?: readonly string[]): Promise<void> {
+    const extent = await extentOf(app, ids ?? app.stores.view.getState().isolated);
+    if (extent) {
+        const { box, guess } = extent;
+        moveCamera(app, (camera) =>
+            guess ? frame(camera, guess, app.aspect()) : frameBox(camera, box, app.aspect()),
+        );
+    }
 }
 
 export function copyNodes(app: App): void {
@@ -261,15 +276,18 @@ export function showAll(app: App): void {
 }
 
 /* Cuts what this page shows through its middle, or no longer. No edit. */
-export function toggleSection({ stores }: App): void {
-    const { document, schema } = stores.document.getState();
-    const { camera } = stores.camera.getState();
-    stores.view.setState(({ section }) => ({
-        section:
-            section === null && document !== null
-                ? sectionSeenFrom(camera.position, ballOf(document, schema))
-                : null,
-    }));
+export async function toggleSection(app: App): Promise<void> {
+    const { view, camera } = app.stores;
+    const { section, isolated } = view.getState();
+    const extent = section === null ? await extentOf(app, isolated) : null;
+    view.setState(
+        extent
+            ? {
+                  extent: extent.box,
+                  section: sectionSeenFrom(camera.getState().camera.position, extent.box),
+              }
+            : { section: null },
+    );
 }
 
 /* This page shows the selection alone, or all again. No edit. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A rough ball around nodes, for framing the view only: a node's own size is taken as the sum of
  * its length parameters, so it needs no knowledge of any node type. */
-import type { Ball } from "./camera.ts";
+import type { Ball, Box } from "./camera.ts";
 import { isVisible, modelNamed, type SceneDocument, type SceneNode } from "./document.ts";
 import { type Reading, readingOf } from "./modelParams.ts";
 import { nodeType, type Schema, valueIn } from "./schema.ts";
@@ -82,6 +82,16 @@ export function ballIn(
     const largest = Math.max(...transform.scale.map(Math.abs));
     return { center: toParent(transform, ball.center), radius: ball.radius * largest };
 }
+
+/* The least cube around a ball, and the ball of half the longest side in the middle of a box. */
+export const boxAround = ({ center, radius }: Ball): Box => ({
+    low: subtract(center, [radius, radius, radius]),
+    high: add(center, [radius, radius, radius]),
+});
+export const ballWithin = ({ low, high }: Box): Ball => ({
+    center: scale(add(low, high), 0.5),
+    radius: Math.max(...subtract(high, low)) / 2,
+});
 
 /* Around the given nodes, in the world; around everything where none is given. Where nothing is to be
  * seen, it is around the place of the first. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A new light, where it can be seen: beside what is selected, aimed at it, bright enough. */
-import { ballOf } from "./bounds.ts";
+/* A new light, where it can be seen: beside what it is for, aimed at it, bright enough. */
+import { ballWithin } from "./bounds.ts";
+import type { Box } from "./camera.ts";
 import { freeName, type SceneDocument, typesOf } from "./document.ts";
 import type { JsonObject } from "./json.ts";
 import { insertResource, type ResourceEdit } from "./resources.ts";
@@ -18,15 +19,9 @@ const BRIGHT = Math.PI;
 const CONE = Math.PI / 6;
 
 /* What a type of light starts with; only what it has a row for. */
-export function newLightValues(
-    document: SceneDocument,
-    schema: Schema,
-    type: string,
-    selection: readonly string[],
-): JsonObject {
+export function newLightValues(schema: Schema, type: string, lit: Box): JsonObject {
     const params = typesOf(schema, "lights").find((row) => row.type === type)?.params ?? [];
-    const ids = selection.filter((id) => document.nodes.has(id));
-    const ball = ballOf(document, schema, ids.length > 0 ? ids : undefined);
+    const ball = ballWithin(lit);
     const away = scale(FROM, Math.max(LEAST_AWAY, AWAY * ball.radius));
     if (findParam(params, "position") === null) {
         return {};
@@ -45,10 +40,10 @@ export function newLight(
     document: SceneDocument,
     schema: Schema,
     type: string,
-    selection: readonly string[],
+    lit: Box,
 ): ResourceEdit {
     const name = freeName(document, "lights", type);
-    const value = { type, ...newLightValues(document, schema, type, selection) };
+    const value = { type, ...newLightValues(schema, type, lit) };
     const ops = [insertResource("lights", name, value, null)];
     return { ops, label: `add ${name}`, select: [], name };
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A plane across an axis that cuts this page's pictures: no edit, and nobody else sees it. */
-import type { Ball } from "./camera.ts";
+import { ballWithin } from "./bounds.ts";
+import type { Box } from "./camera.ts";
 import type { JsonObject } from "./json.ts";
 import type { Vector } from "./transform.ts";
 
@@ -33,9 +34,10 @@ export function printSection(section: Section): JsonObject {
 export const sectionMember = (section: Section | null): { section?: JsonObject } =>
     section === null ? {} : { section: printSection(section) };
 
-/* Through the middle of a ball, across the axis along which it is looked at most, so that the eye
+/* Through the middle of a box, across the axis along which it is looked at most, so that the eye
  * looks at the cut. */
-export function sectionSeenFrom(eye: Vector, { center }: Ball): Section {
+export function sectionSeenFrom(eye: Vector, box: Box): Section {
+    const { center } = ballWithin(box);
     const apart = SECTION_AXES.map((_, i) => (eye[i] ?? 0) - (center[i] ?? 0));
     const most = Math.max(...apart.map(Math.abs));
     const i = Math.max(
@@ -52,12 +54,13 @@ const across = (axis: SectionAxis, flipped: boolean, center: Vector): Section =>
 });
 
 /* The same across another axis, through the middle again. */
-export function sectionAcross(section: Section, axis: SectionAxis, { center }: Ball): Section {
+export function sectionAcross(section: Section, axis: SectionAxis, box: Box): Section {
+    const { center } = ballWithin(box);
     return section.axis === axis ? section : across(axis, section.flipped, center);
 }
 
-/* Where planes across an axis cut the ball. */
-export function sectionRange(axis: SectionAxis, { center, radius }: Ball) {
-    const middle = center[SECTION_AXES.indexOf(axis)] ?? 0;
-    return { low: middle - radius, high: middle + radius };
+/* Where planes across an axis cut the box. */
+export function sectionRange(axis: SectionAxis, { low, high }: Box) {
+    const i = SECTION_AXES.indexOf(axis);
+    return { low: low[i] ?? 0, high: high[i] ?? 0 };
 }

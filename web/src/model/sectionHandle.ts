@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The handle of a section in the picture: where its arrow stands, what shows the plane, and where a
  * drag puts the plane. Pure functions of the start and the pointer, so a lost event costs nothing. */
-import type { Ball } from "./camera.ts";
+import { ballWithin } from "./bounds.ts";
+import type { Box } from "./camera.ts";
 import { type Axis, axisOf, deltaTo, SNAP } from "./grip.ts";
 import { IDENTITY } from "./movables.ts";
 import { alongLine, onPlane, type Projection, type Size, type Spot } from "./projection.ts";
@@ -37,7 +38,7 @@ const CLEAR = 140;
 
 /* The cosine from which the normal counts as along the view. */
 const HEAD_ON = 0.985;
-/* How far from the middle of the ball the arrow may stand, by the ball's radius. */
+/* How far from the middle of the box the arrow may stand, by half of its longest side. */
 const FARTHEST = 2;
 /* Half a side of the outline, at most, by the shorter side of the picture. */
 const SEEN = 0.36;
@@ -64,7 +65,7 @@ function unitOf(from: Spot, to: Spot): Spot {
 export function arrowFrom(
     at: Vector,
     section: Section,
-    { center }: Ball,
+    box: Box,
     projection: Projection,
 ): SectionArrow | null {
     const normal = sectionNormal(section);
@@ -76,7 +77,7 @@ export function arrowFrom(
     const facing = -dot(normal, projection.towards(at));
     const headOn = Math.abs(facing) > HEAD_ON;
     const way = headOn ? { x: 0, y: facing > 0 ? 1 : -1 } : unitOf(foot, tip);
-    return { at, foot, middle: onSection(section, center), way, headOn };
+    return { at, foot, middle: onSection(section, ballWithin(box).center), way, headOn };
 }
 
 /* In the plane, and across the arrow in the picture; to the left where it can be. */
@@ -126,16 +127,17 @@ function footWithin({ foot, way }: SectionArrow, { left, top, right, bottom }: R
  * lies over the picture. Null where nothing of the plane is before the camera. */
 export function sectionArrow(
     section: Section,
-    ball: Ball,
+    box: Box,
     projection: Projection,
     room: Room,
     gizmo: Spot | null,
 ): SectionArrow | null {
-    const middle = onSection(section, ball.center);
-    const first = arrowFrom(middle, section, ball, projection);
+    const { center, radius } = ballWithin(box);
+    const middle = onSection(section, center);
+    const first = arrowFrom(middle, section, box, projection);
     const side = sideOf(first ?? { at: middle, headOn: false }, section, projection);
     const at = first && gizmo ? besideGizmo(first, side, projection, gizmo) : middle;
-    const wanted = arrowFrom(at, section, ball, projection);
+    const wanted = arrowFrom(at, section, box, projection);
     const foot = wanted ? footWithin(wanted, room) : middleOf(room);
     if (wanted && foot.x === wanted.foot.x && foot.y === wanted.foot.y) {
         return wanted;
@@ -149,8 +151,8 @@ export function sectionArrow(
         middle,
     ];
     const arrows = points.map((point) =>
-        point && length(subtract(point, middle)) <= FARTHEST * ball.radius
-            ? arrowFrom(point, section, ball, projection)
+        point && length(subtract(point, middle)) <= FARTHEST * radius
+            ? arrowFrom(point, section, box, projection)
             : null,
     );
     return arrows.find((arrow) => arrow !== null) ?? null;
@@ -163,13 +165,14 @@ const middleOf = ({ left, top, right, bottom }: Room): Spot => ({
 
 /* --- the plane --- */
 
-/* A square on the plane, as lines in the picture: around the ball, and no larger than is seen. */
+/* A square on the plane, as lines in the picture: around the box, and no larger than is seen. */
 export function sectionOutline(
     section: Section,
     { at, middle }: SectionArrow,
-    { center, radius }: Ball,
+    box: Box,
     { size, spotOf, unitsAt }: Projection,
 ): readonly (readonly Spot[])[] {
+    const { center, radius } = ballWithin(box);
     const whole = isIn(spotOf(middle), size);
     const around = whole ? middle : at;
     /* It does not shrink as the plane comes nearer. */
@@ -206,7 +209,7 @@ export interface SectionGrip {
     readonly arrow: SectionArrow;
     readonly projection: Projection;
     readonly from: Spot;
-    readonly ball: Ball;
+    readonly box: Box;
 }
 
 /* How far along its axis the pointer's way moves the plane. */
@@ -222,24 +225,24 @@ function movedBy({ section, arrow, projection, from }: SectionGrip, to: Spot): n
     return delta.motion === "move" ? delta.by[axis] : 0;
 }
 
-/* Not beyond the ball, or where it was. `snaps`: in steps of the place. */
+/* Not beyond the box, or where it was. `snaps`: in steps of the place. */
 export function dragSection(grip: SectionGrip, to: Spot, snaps: boolean): Section {
     return placed(
         grip.section,
         grip.section.at + movedBy(grip, to),
-        grip.ball,
+        grip.box,
         snaps ? SNAP.move : 0,
     );
 }
 
 /* The same by so many steps; a tenth of them where `fine`. */
-export function stepSection(section: Section, steps: number, fine: boolean, ball: Ball): Section {
+export function stepSection(section: Section, steps: number, fine: boolean, box: Box): Section {
     const step = SNAP.move * (fine ? 0.1 : 1);
-    return placed(section, snap(section.at + steps * step, step / 10), ball, 0);
+    return placed(section, snap(section.at + steps * step, step / 10), box, 0);
 }
 
-function placed(section: Section, at: number, ball: Ball, step: number): Section {
-    const { low, high } = sectionRange(section.axis, ball);
+function placed(section: Section, at: number, box: Box, step: number): Section {
+    const { low, high } = sectionRange(section.axis, box);
     const [least, most] = [Math.min(low, section.at), Math.max(high, section.at)];
     return { ...section, at: snap(between(least, at, most), step) };
 }

@@ -2,6 +2,7 @@
 /* What one user's page looks like: selection, panels, theme, hints. Pure state and its changes;
  * never part of a document, never sent to others. */
 
+import type { Box } from "./camera.ts";
 import { MOTIONS, type Motion } from "./grip.ts";
 import { PIVOTS, type Pivot, SPACES, type Space } from "./hands.ts";
 import type { Operation } from "./operation.ts";
@@ -122,6 +123,8 @@ export interface View {
     readonly isolated: readonly string[];
     /* What cuts this page's pictures; null: nothing. */
     readonly section: Section | null;
+    /* Around what may be cut, as it was asked for last. */
+    readonly extent: Box;
     /* What this page shows as if it were so: no edit. */
     readonly trial: Trial | null;
     /* The node whose name is being typed. */
@@ -160,6 +163,7 @@ export const INITIAL_VIEW: View = {
     collapsed: new Set(),
     isolated: [],
     section: null,
+    extent: { low: [-1, -1, -1], high: [1, 1, 1] },
     trial: null,
     renaming: null,
     popup: null,

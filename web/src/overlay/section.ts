@@ -2,8 +2,7 @@
 /* The handle of the section: an arrow on the plane, which a hand or arrow keys move along the normal,
  * and the plane's outline. Placed with the camera of the picture shown. No edit: the plane is what
  * this page looks at. */
-import { ballOf } from "../model/bounds.ts";
-import type { Ball } from "../model/camera.ts";
+import type { Box } from "../model/camera.ts";
 import { movablesOf, pivotOf } from "../model/movables.ts";
 import { type Projection, projectionOf, type Spot } from "../model/projection.ts";
 import { type Section, sectionRange } from "../model/section.ts";
@@ -125,7 +124,7 @@ export class SectionHand {
     #gripAt(from: Spot): SectionGrip | null {
         const [section, projection] = [this.#section, this.#projection];
         const arrow = section && projection && this.#arrowOf(section, projection);
-        return arrow && { section, arrow, projection, from, ball: this.#ball };
+        return arrow && { section, arrow, projection, from, box: this.#box };
     }
 
     #key(event: KeyboardEvent): void {
@@ -135,7 +134,7 @@ export class SectionHand {
         }
         event.preventDefault();
         if (this.#section) {
-            this.#set(stepSection(this.#section, steps, event.shiftKey, this.#ball));
+            this.#set(stepSection(this.#section, steps, event.shiftKey, this.#box));
         }
     }
 
@@ -149,9 +148,8 @@ export class SectionHand {
         return this.#stores.view.getState().section;
     }
 
-    get #ball(): Ball {
-        const { document, schema } = this.#stores.document.getState();
-        return document ? ballOf(document, schema) : { center: [0, 0, 0], radius: 1 };
+    get #box(): Box {
+        return this.#stores.view.getState().extent;
     }
 
     get #projection(): Projection | null {
@@ -180,10 +178,10 @@ export class SectionHand {
     }
 
     #arrowOf(section: Section, projection: Projection): SectionArrow | null {
-        const ball = this.#ball;
+        const box = this.#box;
         return this.#grip
-            ? arrowFrom(onSection(section, this.#grip.arrow.at), section, ball, projection)
-            : sectionArrow(section, ball, projection, this.#room, this.#gizmo(projection));
+            ? arrowFrom(onSection(section, this.#grip.arrow.at), section, box, projection)
+            : sectionArrow(section, box, projection, this.#room, this.#gizmo(projection));
     }
 
     readonly #draw = (): void => {
@@ -197,7 +195,7 @@ export class SectionHand {
             arrow.style.translate = `${foot.x}px ${foot.y}px`;
             arrow.style.rotate = `${Math.atan2(way.y, way.x)}rad`;
             this.#value(section);
-            const lines = sectionOutline(section, stand, this.#ball, projection);
+            const lines = sectionOutline(section, stand, this.#box, projection);
             const path = lines.map((spots) => `M${spots.map(({ x, y }) => `${x} ${y}`).join("L")}`);
             for (const line of outline.children) {
                 line.setAttribute("d", path.join(""));
@@ -206,7 +204,7 @@ export class SectionHand {
     };
 
     #value(section: Section): void {
-        const { low, high } = sectionRange(section.axis, this.#ball);
+        const { low, high } = sectionRange(section.axis, this.#box);
         const { arrow } = this.#parts;
         arrow.ariaValueMin = String(Math.min(low, section.at));
         arrow.ariaValueMax = String(Math.max(high, section.at));

@@ -2,7 +2,7 @@
 /* What people do with new nodes, resources and code, as one edit each. Acts on selected nodes are
  * commands (model/commands.ts). */
 
-import { perform, tellDeleted } from "../model/actions.ts";
+import { extentOf, perform, selectionOf, tellDeleted } from "../model/actions.ts";
 import {
     type Addition,
     addInput as buildInput,
@@ -146,14 +146,15 @@ export function addResource(
 }
 
 /* A light or a volume of a type. */
-export function addTyped(editor: Editor, list: ListName, type: string): void {
-    const { selection } = editor.stores.view.getState();
+export async function addTyped(editor: Editor, list: ListName, type: string): Promise<void> {
+    const lit = list === "lights" ? await extentOf(editor, selectionOf(editor)) : null;
+    if (list === "lights" && lit === null) {
+        return;
+    }
     performOn(
         editor,
         (document, schema) =>
-            list === "lights"
-                ? newLight(document, schema, type, selection)
-                : newTyped(document, list, type),
+            lit ? newLight(document, schema, type, lit.box) : newTyped(document, list, type),
         showIt(editor, list),
     );
 }

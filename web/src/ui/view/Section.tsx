@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The plane that cuts this page's pictures: across which axis, which side, where; and the way out. */
 import { FlipHorizontal2, SquareSplitHorizontal } from "lucide-react";
-import { useMemo } from "react";
-import { ballOf } from "../../model/bounds.ts";
+import { useEffect } from "react";
+import { extentOf } from "../../model/actions.ts";
+import type { Box } from "../../model/camera.ts";
 import {
     type Section as Cut,
     SECTION_AXES,
@@ -17,6 +18,8 @@ import "./section.css";
 
 /* Of the slider. */
 const STEPS = 400;
+/* The scene rests before it is asked for its size. */
+const REST_MS = 300;
 
 export default function Section() {
     const section = useView((view) => view.section);
@@ -27,15 +30,28 @@ export default function Section() {
     );
 }
 
+/* Around what is shown, also when that has changed. */
+function useExtent(): Box {
+    const editor = useEditor();
+    const document = useDocument((state) => state.document);
+    const isolated = useView((view) => view.isolated);
+    useEffect(() => {
+        const ask = async (): Promise<void> => {
+            const now = document && (await extentOf(editor, isolated));
+            if (now) {
+                editor.stores.view.setState({ extent: now.box });
+            }
+        };
+        const timer = setTimeout(ask, REST_MS);
+        return () => clearTimeout(timer);
+    }, [editor, document, isolated]);
+    return useView((view) => view.extent);
+}
+
 function Controls({ section }: { section: Cut }) {
     const { stores } = useEditor();
-    const document = useDocument((state) => state.document);
-    const schema = useDocument((state) => state.schema);
-    const ball = useMemo(
-        () => (document ? ballOf(document, schema) : { center: [0, 0, 0] as const, radius: 1 }),
-        [document, schema],
-    );
-    const { low, high } = sectionRange(section.axis, ball);
+    const extent = useExtent();
+    const { low, high } = sectionRange(section.axis, extent);
     const set = (next: Cut | null): void => stores.view.setState({ section: next });
     return (
         <fieldset className="glass pill section-bar" data-testid="section">
@@ -48,7 +64,7 @@ function Controls({ section }: { section: Cut }) {
                     data-axis={axis}
                     aria-label={t("section.axis", { axis: axis.toUpperCase() })}
                     aria-pressed={axis === section.axis}
-                    onClick={() => set(sectionAcross(section, axis, ball))}
+                    onClick={() => set(sectionAcross(section, axis, extent))}
                 >
                     {axis.toUpperCase()}
                 </button>
