@@ -67,6 +67,12 @@ export default function Marks() {
     return shown ? <Field /> : null;
 }
 
+/* A mark may come under the pointer while the wheel turns: the document's camera always does. */
+function passOn(event: WheelEvent): void {
+    event.preventDefault();
+    document.querySelector(".view-picture")?.dispatchEvent(new WheelEvent(event.type, event));
+}
+
 function Field() {
     const editor = useEditor();
     const { stores } = editor;
@@ -85,6 +91,11 @@ function Field() {
         () => drawOver(stores, () => field.current && place(stores, field.current)),
         [stores, text],
     );
+    useEffect(() => {
+        const element = field.current;
+        element?.addEventListener("wheel", passOn, { passive: false });
+        return () => element?.removeEventListener("wheel", passOn);
+    }, []);
     return (
         <div className="view-marks" ref={field}>
             {marks.map((mark) => (
