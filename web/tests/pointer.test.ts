@@ -34,6 +34,7 @@ beforeEach(() => {
         menu: (x, y) => void log.push(`menu ${x} ${y}`),
         frame: (x, y) => void log.push(`frame ${x} ${y}`),
         pointing: () => pointing,
+        seemsTrackpad: () => void log.push("trackpad"),
         gesture: (kind) => void log.push(`${kind}`),
     };
     machine = new PointerMachine(actions);
@@ -130,8 +131,16 @@ test("the wheel goes to the pointer, on a trackpad it orbits, pans and pinches",
     machine.wheel(wheel);
     expect(distance(camera)).toBeGreaterThan(distance(DEFAULT_CAMERA));
     expect(shifted()).toBe(true);
+    machine.wheel({ ...wheel, dx: 100, dy: 0, shift: true });
+    machine.wheel({ ...wheel, dx: 3, dy: 4, ctrl: true });
+    expect(log).toEqual([]);
+    machine.wheel({ ...wheel, dx: 3, dy: 4 });
+    expect(log).toEqual(["trackpad"]);
     camera = DEFAULT_CAMERA;
     pointing = "trackpad";
+    machine.wheel({ ...wheel, dx: 3, dy: 4 });
+    expect(log).toEqual(["trackpad"]);
+    camera = DEFAULT_CAMERA;
     machine.wheel({ ...wheel, dx: 20, dy: 0 });
     expect(shifted()).toBe(false);
     expect(distance(camera)).toBeCloseTo(distance(DEFAULT_CAMERA), 9);

@@ -138,6 +138,13 @@ function topicOf({ document, view }: Stores): string | null {
     return document.getState().document?.nodes.get(active)?.type ?? null;
 }
 
+type Switch = "grid" | "marks" | "outlines" | "probe" | "thumbnails" | "singleKeys";
+
+const toggle =
+    (name: Switch) =>
+    ({ stores: { view } }: App): void =>
+        setPreferences(view, { [name]: !view.getState().preferences[name] });
+
 export const COMMANDS: readonly Command[] = [
     row({
         id: "palette.open",
@@ -623,8 +630,7 @@ export const COMMANDS: readonly Command[] = [
         title: "Ground grid in the picture",
         group: "view",
         whyNot: never,
-        run: ({ stores }) =>
-            setPreferences(stores.view, { grid: !stores.view.getState().preferences.grid }),
+        run: toggle("grid"),
     }),
     row({
         id: "view.marks",
@@ -632,10 +638,7 @@ export const COMMANDS: readonly Command[] = [
         title: "Lights, volumes and camera in the picture",
         group: "view",
         whyNot: never,
-        run: (app) =>
-            setPreferences(app.stores.view, {
-                marks: !app.stores.view.getState().preferences.marks,
-            }),
+        run: toggle("marks"),
     }),
     row({
         id: "view.measure",
@@ -660,10 +663,7 @@ export const COMMANDS: readonly Command[] = [
         title: "Outlines in the picture",
         group: "view",
         whyNot: never,
-        run: ({ stores }) =>
-            setPreferences(stores.view, {
-                outlines: !stores.view.getState().preferences.outlines,
-            }),
+        run: toggle("outlines"),
     }),
     row({
         id: "view.probe",
@@ -671,8 +671,7 @@ export const COMMANDS: readonly Command[] = [
         title: "Tell what is under the pointer",
         group: "view",
         whyNot: never,
-        run: ({ stores }) =>
-            setPreferences(stores.view, { probe: !stores.view.getState().preferences.probe }),
+        run: toggle("probe"),
     }),
     row({
         id: "view.statistics",
@@ -687,9 +686,18 @@ export const COMMANDS: readonly Command[] = [
         title: "Thumbnails in the tree",
         group: "view",
         whyNot: never,
-        run: ({ stores }) =>
-            setPreferences(stores.view, {
-                thumbnails: !stores.view.getState().preferences.thumbnails,
+        run: toggle("thumbnails"),
+    }),
+    row({
+        id: "view.trackpad",
+        words: "touchpad mouse wheel scroll pinch zoom input device",
+        title: "Trackpad: two fingers orbit, or zoom",
+        group: "view",
+        whyNot: never,
+        run: ({ stores: { view } }) =>
+            setPreferences(view, {
+                pointing:
+                    view.getState().preferences.pointing === "trackpad" ? "mouse" : "trackpad",
             }),
     }),
     row({
@@ -785,5 +793,13 @@ export const COMMANDS: readonly Command[] = [
         keys: ["?"],
         whyNot: never,
         run: show({ popup: "help" }),
+    }),
+    row({
+        id: "help.singleKeys",
+        words: "shortcuts letters accessibility speech disable",
+        title: "Single keys act as commands, or do not",
+        group: "help",
+        whyNot: never,
+        run: toggle("singleKeys"),
     }),
 ];

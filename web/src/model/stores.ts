@@ -179,7 +179,9 @@ export type NoticeAct =
     /* What was given up there is tried again; `slow`: with more time. */
     | { readonly kind: "retry"; readonly place: string; readonly slow: boolean }
     /* Takes back what is no edit of the scene. */
-    | { readonly kind: "back"; readonly run: () => void };
+    | { readonly kind: "back"; readonly run: () => void }
+    /* Two fingers on a trackpad orbit from now on. */
+    | { readonly kind: "orbit"; readonly run: () => void };
 
 export interface NoticeState {
     readonly notices: readonly Notice[];

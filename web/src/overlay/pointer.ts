@@ -29,6 +29,8 @@ export interface PointerActions {
     /* A double tap or double click: look at what is there. */
     frame(x: number, y: number): void;
     pointing(): Pointing;
+    /* What turns the wheel of a mouse is a trackpad. */
+    seemsTrackpad(): void;
     /* For the cursor and the status line; null: nothing is going on. */
     gesture(kind: Gesture | null): void;
 }
@@ -356,6 +358,10 @@ export class PointerMachine {
     wheel({ x, y, dx, dy, shift, ctrl }: Wheel): void {
         const camera = this.#actions.camera();
         const trackpad = this.#actions.pointing() === "trackpad";
+        /* No wheel turns both ways at once. */
+        if (!trackpad && !ctrl && dx !== 0 && dy !== 0) {
+            this.#actions.seemsTrackpad();
+        }
         const { height } = this.#size;
         if (ctrl || !trackpad) {
             /* A pinch arrives as a wheel with Ctrl and small steps. */

@@ -3,7 +3,12 @@
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
-export function FlagField({ label, value, mixed, describedBy, onCommit }: FieldProps<boolean>) {
+type FlagProps = Pick<
+    FieldProps<boolean>,
+    "label" | "value" | "mixed" | "describedBy" | "onCommit"
+>;
+
+export function FlagField({ label, value, mixed, describedBy, onCommit }: FlagProps) {
     return (
         // biome-ignore lint/a11y/useAriaPropsSupportedByRole: both roles have it
         <button

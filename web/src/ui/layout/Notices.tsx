@@ -45,7 +45,7 @@ function ActButton({ act, id }: { act: NoticeAct; id: number }) {
     const run = (): void => {
         if (act.kind === "undo") {
             editor.undo();
-        } else if (act.kind === "back") {
+        } else if ("run" in act) {
             act.run();
         } else if (act.kind === "retry") {
             editor.link.tryAgain(act.place);
@@ -79,12 +79,13 @@ const NoticeCard = memo(function NoticeCard({ notice }: { notice: Notice }) {
                     findResource(document, resource.list, resource.name) !== null)),
     );
     useEffect(() => {
-        if (level === "error") {
+        /* A question waits for its answer. */
+        if (level === "error" || code === "trackpad") {
             return;
         }
         const timer = setTimeout(() => dismissNotice(stores.notices, id), STAY_MS);
         return () => clearTimeout(timer);
-    }, [stores, id, level]);
+    }, [stores, id, level, code]);
     const where = useDocument(({ document }) => placeTitle(document, place));
     const Icon = icons[level];
     return (

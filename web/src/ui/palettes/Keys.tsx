@@ -2,57 +2,60 @@
 /* The sheet of keys, made from the table of commands, with the gestures beside them. */
 import { useRef } from "react";
 import { COMMANDS, type Command } from "../../model/commands.ts";
+import { setPreferences } from "../../model/stores.ts";
+import { FlagField } from "../fields/Flag.tsx";
 import { keyText } from "../layout/keys.ts";
 import { useEditor, useView } from "../state.ts";
-import { type TextKey, t } from "../texts.ts";
+import { t } from "../texts.ts";
 import { Dialog } from "../widgets/Dialog.tsx";
+import { KEY_TEXTS, type KeyText } from "./keyTexts.ts";
 import "./palettes.css";
 
-const gestures: readonly { title: TextKey; rows: readonly (readonly [TextKey, string])[] }[] = [
+const gestures: readonly { title: KeyText; rows: readonly (readonly [KeyText, string])[] }[] = [
     {
-        title: "keys.picture",
+        title: "picture",
         rows: [
-            ["keys.select", "Click"],
-            ["keys.selectMore", "Shift+Click"],
-            ["keys.under", "Alt+Click"],
-            ["keys.box", "Shift+Drag"],
-            ["keys.orbit", "Drag"],
-            ["keys.pan", "Right drag"],
-            ["keys.dolly", "Wheel"],
-            ["keys.touch", "1 / 2 fingers"],
-            ["keys.regions", "F6"],
-            ["keys.section", "Drag / ↑ ↓"],
+            ["select", "Click"],
+            ["selectMore", "Shift+Click"],
+            ["under", "Alt+Click"],
+            ["box", "Shift+Drag"],
+            ["orbit", "Drag"],
+            ["pan", "Right drag"],
+            ["dolly", "Wheel"],
+            ["touch", "1 / 2 fingers"],
+            ["regions", "F6"],
+            ["section", "Drag / ↑ ↓"],
         ],
     },
     {
-        title: "keys.fields",
+        title: "fields",
         rows: [
-            ["keys.scrub", "Drag"],
-            ["keys.fine", "Shift+Drag"],
-            ["keys.snap", "Ctrl+Drag"],
-            ["keys.type", "Click"],
-            ["keys.step", "↑ ↓"],
-            ["keys.restore", "Esc"],
-            ["keys.default", "Backspace"],
+            ["scrub", "Drag"],
+            ["fine", "Shift+Drag"],
+            ["snap", "Ctrl+Drag"],
+            ["type", "Click"],
+            ["step", "↑ ↓"],
+            ["restore", "Esc"],
+            ["default", "Backspace"],
         ],
     },
     {
-        title: "keys.tree",
+        title: "tree",
         rows: [
-            ["keys.treeMove", "↑ ↓ ← →"],
-            ["keys.treeDrag", "Ctrl+Shift+D"],
-            ["keys.treeMenu", "Right click"],
+            ["treeMove", "↑ ↓ ← →"],
+            ["treeDrag", "Ctrl+Shift+D"],
+            ["treeMenu", "Right click"],
         ],
     },
     {
-        title: "keys.graph",
+        title: "graph",
         rows: [
-            ["keys.graphMove", "↑ ↓ ← →"],
-            ["keys.graphFold", "Space"],
-            ["keys.graphWire", "Drag"],
-            ["keys.graphAdd", "Drag"],
-            ["keys.graphPark", "Drag"],
-            ["keys.graphInsert", "Drag"],
+            ["graphMove", "↑ ↓ ← →"],
+            ["graphFold", "Space"],
+            ["graphWire", "Drag"],
+            ["graphAdd", "Drag"],
+            ["graphPark", "Drag"],
+            ["graphInsert", "Drag"],
         ],
     },
 ];
@@ -65,21 +68,21 @@ export function Keys() {
     return (
         <Dialog
             open={open}
-            title={t("keys.title")}
+            title={KEY_TEXTS.title}
             wide
             first={list}
             closeLabel={t("close")}
             onClose={() => stores.view.setState({ popup: null })}
         >
             {/* biome-ignore lint/a11y/noNoninteractiveTabindex: it scrolls, so keys must reach it */}
-            <section ref={list} className="keys" tabIndex={0} aria-label={t("keys.title")}>
+            <section ref={list} className="keys" tabIndex={0} aria-label={KEY_TEXTS.title}>
                 {gestures.map(({ title, rows }) => (
                     <section key={title}>
-                        <h3>{t(title)}</h3>
+                        <h3>{KEY_TEXTS[title]}</h3>
                         <dl>
                             {rows.map(([what, how]) => (
                                 <div key={what}>
-                                    <dt>{t(what)}</dt>
+                                    <dt>{KEY_TEXTS[what]}</dt>
                                     <dd>
                                         <kbd>{keyText(how)}</kbd>
                                     </dd>
@@ -88,11 +91,44 @@ export function Keys() {
                         </dl>
                     </section>
                 ))}
+                <Choices />
                 {groups.map((group) => (
                     <KeyGroup key={group} group={group} />
                 ))}
             </section>
         </Dialog>
+    );
+}
+
+function Choices() {
+    const { stores } = useEditor();
+    const { pointing, singleKeys } = useView(({ preferences }) => preferences);
+    const rows = [
+        ["singleKeys", singleKeys, (on: boolean) => ({ singleKeys: on })],
+        [
+            "trackpad",
+            pointing === "trackpad",
+            (on: boolean) => ({ pointing: on ? ("trackpad" as const) : ("mouse" as const) }),
+        ],
+    ] as const;
+    return (
+        <section>
+            <h3>{KEY_TEXTS.choices}</h3>
+            <dl>
+                {rows.map(([name, value, choice]) => (
+                    <div key={name}>
+                        <dt>{KEY_TEXTS[name]}</dt>
+                        <dd>
+                            <FlagField
+                                label={KEY_TEXTS[name]}
+                                value={value}
+                                onCommit={(on) => setPreferences(stores.view, choice(on))}
+                            />
+                        </dd>
+                    </div>
+                ))}
+            </dl>
+        </section>
     );
 }
 
@@ -103,7 +139,7 @@ function KeyGroup({ group }: { group: Command["group"] }) {
     }
     return (
         <section>
-            <h3>{t(`keys.${group}`)}</h3>
+            <h3>{KEY_TEXTS[group]}</h3>
             <dl>
                 {rows.map(({ id, title, keys }) => (
                     <div key={id}>

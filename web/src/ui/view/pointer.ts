@@ -5,7 +5,7 @@ import { focusOn, moveCamera } from "../../model/actions.ts";
 import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { parentOf, topmost } from "../../model/document.ts";
 import { nameAll } from "../../model/edits.ts";
-import { addNotice, type Stores } from "../../model/stores.ts";
+import { addNotice, type Stores, setPreferences } from "../../model/stores.ts";
 import { vectorOf } from "../../model/transform.ts";
 import { type SelectMode, select } from "../../model/view.ts";
 import { holdBox } from "../../overlay/box.ts";
@@ -145,10 +145,27 @@ export function pointerActions(
             }
         },
         pointing: () => stores.view.getState().preferences.pointing,
+        seemsTrackpad: () => askTrackpad(stores),
         gesture: (kind) => {
             element.dataset.gesture = kind ?? "";
         },
     };
+}
+
+/* Once. */
+function askTrackpad({ view, notices }: Stores): void {
+    const { hintsDone } = view.getState().preferences;
+    if (hintsDone.includes("trackpad")) {
+        return;
+    }
+    setPreferences(view, { hintsDone: [...hintsDone, "trackpad"] });
+    const run = (): void => setPreferences(view, { pointing: "trackpad" });
+    addNotice(notices, {
+        level: "info",
+        code: "trackpad",
+        message: t("pointing.ask"),
+        acts: [{ kind: "orbit", run }],
+    });
 }
 
 function nameOfHeld({ document: scene, view }: Stores): string {
