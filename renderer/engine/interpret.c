@@ -107,17 +107,7 @@ static void run_shape(struct machine *v, const struct operation *in)
     }
 }
 
-/* Most operations are unions, of distances alone. */
-static bool run_union(struct machine *v, const struct operation *in)
-{
-    if (!in->lesser || v->mixtures || (in->seen && v->c->params[in->seen] != 0.0f)) {
-        return false;
-    }
-    v->d[in->a] = vf_min(v->d[in->a], v->d[in->b]);
-    return true;
-}
-
-static void run_combine(struct machine *v, const struct operation *in)
+static void run_operands(struct machine *v, const struct operation *in)
 {
     struct lanes *c = v->c;
     const struct operation_kind *kind = kind_of(v, in);
@@ -138,6 +128,17 @@ static void run_combine(struct machine *v, const struct operation *in)
             spmd_chosen(c, v->m, d, share, ma, mb, out);
         }
         memcpy(ma, out, sizeof out);
+    }
+}
+
+static void run_combine(struct machine *v, const struct operation *in)
+{
+    const bool alone = in->lesser && !v->mixtures;
+
+    if (alone && (!in->seen || v->c->params[in->seen] == 0.0f)) {
+        v->d[in->a] = vf_min(v->d[in->a], v->d[in->b]);
+    } else {
+        run_operands(v, in);
     }
 }
 
@@ -274,9 +275,7 @@ static void run(struct machine *v, const uint32_t *tape, size_t count)
             if (v->drops) {
                 record(v, in, i);
             }
-            if (!run_union(v, in)) {
-                run_combine(v, in);
-            }
+            run_combine(v, in);
             break;
         case FIELD_DISTANCE:
             set_distance(v, in->a, CALL(change_function, function)(c, v->m, v->d[in->a]));
