@@ -124,18 +124,19 @@ static struct bounds fill_cut(const struct field_call *call, double scale,
 static void fill_form(const struct field_call *call, const double *numbers, double thickness,
                       int degree, double out[4 * POLYNOMIAL_HEAD])
 {
-    const double head[4 * POLYNOMIAL_HEAD] = {call->size[0] / 2,
-                                              call->size[1] / 2,
-                                              call->size[2] / 2,
-                                              call->extent,
-                                              call->form.ball ? numbers[3] : 0,
-                                              thickness,
-                                              degree,
-                                              polynomial_rest_rows(degree),
-                                              POLYNOMIAL_ESTIMATE,
-                                              EQUATION_REACH,
-                                              fmax(thickness / 16, 0),
-                                              0};
+    const double head[4 * POLYNOMIAL_HEAD] = {
+        call->size[0] / 2,
+        call->size[1] / 2,
+        call->size[2] / 2,
+        call->extent,
+        call->form.ball ? numbers[3] : 0,
+        thickness,
+        degree,
+        polynomial_rest_rows(degree),
+        POLYNOMIAL_ESTIMATE,
+        EQUATION_REACH,
+        fmax(thickness / 16, 0),
+        degree < POLYNOMIAL_FINE ? 0 : polynomial_coefficient_rows(degree)};
 
     memcpy(out, head, sizeof head);
 }

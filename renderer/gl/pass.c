@@ -102,10 +102,11 @@ static bool compose(struct shader_text *out_text, const struct gl *gl,
                     const struct pass_source *source, struct error *err)
 {
     const char *defines = source->defines ? source->defines : "";
-    const size_t head_size = strlen(defines) + 32;
+    const char *version = gl->has_compute ? "430 core\n#define PRECISE precise" : "330 core";
+    const size_t head_size = strlen(defines) + 64;
     char *head = memory_alloc(1, head_size);
 
-    snprintf(head, head_size, "#version %d core\n%s", gl->has_compute ? 430 : 330, defines);
+    snprintf(head, head_size, "#version %s\n%s", version, defines);
     const bool ok = include_resolve(out_text, head, source->file, source->own, err);
     free(head);
     return ok;

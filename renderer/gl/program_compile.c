@@ -101,7 +101,8 @@ char *program_text(const struct program_source *source, enum program_stage stage
     char file[FILE_NAME_BYTES], head[192];
 
     write_file_name(stage, file);
-    snprintf(head, sizeof head, "#version 430 core\n#define PARAMS_COUNT %zu\n%s%s%s",
+    snprintf(head, sizeof head,
+             "#version 430 core\n#define PRECISE precise\n#define PARAMS_COUNT %zu\n%s%s%s",
              source->number_count, define_texture(source->tapes),
              define_users(source->user_shaders), define_volumes(source->volumes));
     return include_resolve(&text, head, file, own, err) ? text.text : NULL;

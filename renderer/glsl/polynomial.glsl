@@ -4,6 +4,14 @@
 #include "field_mask.glsl"
 #include "params.glsl"
 
+/* In parts of the extent: so near to a root its value needs more digits (POLYNOMIAL_FINE). */
+#define POLYNOMIAL_NEAR 0.25
+
+/* No operation is made another: what they lose is computed. Before GLSL 4 nothing says so. */
+#ifndef PRECISE
+#define PRECISE
+#endif
+
 /* Around p up to the third order: (value, bounds of the first, second and third order), and the
  * second order along the gradient. Series in the ways along x, y and z are cut at that order: `s`
  * in z, `r` in y and z, `a` in all. */
@@ -60,6 +68,55 @@ vec4 polynomial_orders(vec3 p, int at, int degree, out float along)
     return vec4(a0.x, length(first), sqrt(dot(even, even) + 0.5 * dot(odd, odd)),
                 sqrt(dot(cubes, cubes) + (dot(one, one) + dot(two, two)) / 3.0 +
                      a5.y * a5.y / 6.0));
+}
+
+/* s * z + c, where c and z are sums of two, as the sum of a value and of what it lacks. */
+vec2 polynomial_step(vec2 s, vec2 z, float c, float low)
+{
+    float high = uintBitsToFloat(floatBitsToUint(s.x) & 0xfffff000u), rest = s.x - high;
+    PRECISE float product = s.x * (z.x + z.y);
+    PRECISE float lost = ((high * z.x - product) + high * z.y + rest * z.x) + rest * z.y;
+    PRECISE float sum = product + c;
+    PRECISE float part = sum - product;
+    PRECISE float left = (product - (sum - part)) + (c - part);
+    return vec2(sum, s.y * (z.x + z.y) + (lost + left + low));
+}
+
+vec2 polynomial_halves(float x)
+{
+    float high = uintBitsToFloat(floatBitsToUint(x) & 0xfffff000u);
+    return vec2(high, x - high);
+}
+
+/* The value alone, in twice the digits; `lows` rows behind a coefficient stands what it lacks. */
+float polynomial_fine(vec3 p, int at, int lows, int degree)
+{
+    vec2 x = polynomial_halves(p.x), y = polynomial_halves(p.y), z = polynomial_halves(p.z);
+    vec2 a = vec2(0.0), r, s;
+    for (int i = 0; i <= degree; i++) {
+        int rows = int(P_FROM(at).x);
+        at++;
+        r = vec2(0.0);
+        for (int j = 0; j < rows; j++) {
+            vec4 c = P_FROM(at), low = P_FROM(at + lows);
+            at++;
+            int more = int(c.x);
+            s = polynomial_step(vec2(c.y, low.y), z, c.z, low.z);
+            s = polynomial_step(s, z, c.w, low.w);
+            for (int k = 0; k < more; k++) {
+                c = P_FROM(at);
+                low = P_FROM(at + lows);
+                at++;
+                s = polynomial_step(s, z, c.x, low.x);
+                s = polynomial_step(s, z, c.y, low.y);
+                s = polynomial_step(s, z, c.z, low.z);
+                s = polynomial_step(s, z, c.w, low.w);
+            }
+            r = polynomial_step(r, y, s.x, s.y);
+        }
+        a = polynomial_step(a, x, r.x, r.y);
+    }
+    return a.x + a.y;
 }
 
 /* All higher orders within `radius` of the origin as one of the fourth. */
@@ -125,6 +182,9 @@ float polynomial_within(vec3 p, int at, float more)
     float along;
     vec4 orders = polynomial_orders(p, rest + count, int(form.z), along);
     vec3 b = max(orders.yzw, 1e-18);
+    if (steps.w > 0.0 && abs(orders.x) < POLYNOMIAL_NEAR * b.x) {
+        orders.x = polynomial_fine(p, rest + count, int(steps.w), int(form.z));
+    }
     float f = abs(orders.x), fourth = 0.0, radius = length(p);
     float limit = polynomial_distance(f, b, 0.0, steps.y), d = limit;
     if (count > 0) {

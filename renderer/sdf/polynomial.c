@@ -18,16 +18,23 @@ static int further_rows(int length)
     return length / 4;
 }
 
-size_t polynomial_rows(int degree)
+int polynomial_coefficient_rows(int degree)
 {
-    size_t rows = (size_t)degree + 1 + (size_t)polynomial_rest_rows(degree);
+    int rows = degree + 1;
 
     for (int i = 0; i <= degree; i++) {
         for (int j = 0; j <= degree - i; j++) {
-            rows += 1 + (size_t)further_rows(degree - i - j + 1);
+            rows += 1 + further_rows(degree - i - j + 1);
         }
     }
     return rows;
+}
+
+size_t polynomial_rows(int degree)
+{
+    const size_t rows = (size_t)polynomial_coefficient_rows(degree);
+
+    return (size_t)polynomial_rest_rows(degree) + (degree < POLYNOMIAL_FINE ? rows : 2 * rows);
 }
 
 int polynomial_trips(int degree)
@@ -96,6 +103,8 @@ void polynomial_write(int degree, const double *c, double *out)
         out[rest - 1 - (m - 4)] = own[m] * m * (m - 1) * (m - 2) * (m - 3) / 24;
     }
     out += rest;
+    double *lows = out + (size_t)(4 * polynomial_coefficient_rows(degree));
+    const double *begin = out;
     for (int i = degree; i >= 0; i--) {
         const int most = highest(c, degree, i);
         out[0] = most + 1;
@@ -103,6 +112,9 @@ void polynomial_write(int degree, const double *c, double *out)
         for (int j = most; j >= 0; j--) {
             out = write_row(c + polynomial_at(degree, i, j), degree - i - j + 1, out);
         }
+    }
+    for (const double *at = begin; degree >= POLYNOMIAL_FINE && at < out; at++) {
+        *lows++ = *at - (double)(float)*at;
     }
 }
 

@@ -27,11 +27,21 @@
 /* The numbers, four in each row:
  *     half of the box, extent of the clip
  *     radius of the ball (0: a box), thickness / extent (-1: solid), degree, rows for the rest
- *     POLYNOMIAL_ESTIMATE, longest step / extent, grain / extent, 0
+ *     POLYNOMIAL_ESTIMATE, longest step / extent, grain / extent, rows of coefficients or 0
  *     the rest: C(m, 4) B_m, the highest m first, behind zeros
  *     for each power of x, the highest first: (powers of y, 0, 0, 0), and of each of them
- *     (further rows, c, c, c), (c, c, c, c), ...: coefficients of powers of z, behind zeros. */
-enum { POLYNOMIAL_HEAD = 3, POLYNOMIAL_DEGREE_MAX = 18, POLYNOMIAL_COEFFICIENTS_MAX = 1330 };
+ *     (further rows, c, c, c), (c, c, c, c), ...: coefficients of powers of z, behind zeros
+ *     from POLYNOMIAL_FINE on: as many rows again, what floats lack of the coefficients.
+ *
+ * From degree POLYNOMIAL_FINE on the terms cancel by so much that floats draw other surfaces. Next
+ * to the surface the value is then computed anew, with what each operation loses, as in twice the
+ * digits (Graillat, Langlois, Louvet, Compensated Horner scheme, 2005). */
+enum {
+    POLYNOMIAL_HEAD = 3,
+    POLYNOMIAL_FINE = 16,
+    POLYNOMIAL_DEGREE_MAX = 18,
+    POLYNOMIAL_COEFFICIENTS_MAX = 1330
+};
 
 /* An estimate of the distance, where that is more than the bound, is Laguerre's step along the
  * gradient (Press et al., Numerical Recipes, 9.5), which is right next to the surface and where all
@@ -45,6 +55,7 @@ enum { POLYNOMIAL_HEAD = 3, POLYNOMIAL_DEGREE_MAX = 18, POLYNOMIAL_COEFFICIENTS_
 
 /* Of terms that have at most this degree: rows of numbers. */
 size_t polynomial_rows(int degree);
+int polynomial_coefficient_rows(int degree);
 int polynomial_rest_rows(int degree);
 /* Loop iterations of one evaluation in GLSL, at most. */
 int polynomial_trips(int degree);
