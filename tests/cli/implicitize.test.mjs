@@ -127,6 +127,68 @@ for (const [method, hard] of Object.entries(TOO_HARD)) {
     });
 }
 
+// --- Singular's elimination, where it is on the machine ---
+
+const hasSingular = spawnSync('Singular', ['--version']).error === undefined;
+
+// The letters, then expressions that are 0. Where a letter is an angle, two letters are its cosine
+// and sine, or of its half. `w` times a denominator is 1.
+const circle = (a, b) => `${a}^2+${b}^2-1`;
+const angles = ['a,b,c,d', circle('a', 'b'), circle('c', 'd')]; // u or s, then v or t
+const ELIMINATED = {
+    plane: ['s,t', 'x-s', 'y-t', 'z-(1+s-2*t)'],
+    cylinder: ['a,b,t', circle('a', 'b'), 'x-a', 'y-b', 'z-t'],
+    cone: ['s,a,b', circle('a', 'b'), 'x-s*a', 'y-s*b', 'z-s'],
+    paraboloid: ['s,a,b', circle('a', 'b'), 'x-s*a', 'y-s*b', 'z-s^2'],
+    'hyperbolic paraboloid': ['s,t', 'x-s', 'y-t', 'z-s*t'],
+    'monkey saddle': ['s,t', 'x-s', 'y-t', 'z-(s^3-3*s*t^2)'],
+    'Whitney umbrella': ['s,t', 'x-s*t', 'y-s', 'z-t^2'],
+    swallowtail: ['u,v', 'x-(u*v^2+3*v^4)', 'y+2*u*v+4*v^3', 'z-u'],
+    'tacnodal quintic': ['s,t', 'x-t', 'y-s^2', 'z-s*(s^2-t^2)'],
+    sphere: ['w,s,t', 'w*(1+s^2+t^2)-1', 'x-2*s*w', 'y-2*t*w', 'z-(1-s^2-t^2)*w'],
+    torus: [...angles, 'x-(2+a)*c', 'y-(2+a)*d', 'z-b'],
+    'Roman surface': [...angles, 'x-a*c*d', 'y-b*c*d', 'z-a*b*c^2'],
+    'cross-cap': [...angles, 'x-2*a*c*d', 'y-2*b*c*d', 'z-(c^2-a^2*d^2)'],
+    'Dupin cyclide': [
+        ...['w,a,b,c,d', circle('a', 'b'), circle('c', 'd'), 'w*(5-3*a*c)-1'],
+        ...['x-(3-5*a*c+16*a)*w', 'y-4*b*(5-c)*w', 'z-4*d*(3*a-1)*w'],
+    ],
+    'conoid of Pluecker': ['s,a,b', circle('a', 'b'), 'x-s*a', 'y-s*b', 'z-2*a*b'],
+    'Moebius strip': [
+        ...['s,a,b', circle('a', 'b')],
+        ...['2*x-(2+s*a)*(a^2-b^2)', '2*y-(2+s*a)*2*a*b', '2*z-s*b'],
+    ],
+    Enneper: ['s,t', '3*x-(3*s-s^3+3*s*t^2)', '3*y-(3*t-t^3+3*t*s^2)', 'z-(s^2-t^2)'],
+};
+
+function eliminate([letters, ...generators]) {
+    const input = `ring r=0,(${letters},x,y,z),(dp(${letters.split(',').length}),dp(3)); short=0;
+        ideal j=eliminate(ideal(${generators.join(',')}),${letters.replaceAll(',', '*')});
+        size(j); print(cleardenom(j[1])); quit;`;
+    const answer = execFileSync('Singular', ['-q', '--no-rc'], { input, encoding: 'utf8', stdio: ['pipe', 'pipe', 'ignore'] });
+    const [count, equation] = answer.split('\n').filter((line) => line && !line.startsWith('//'));
+    assert.equal(count, '1', answer);
+    return equation;
+}
+
+// The terms, in one order and with one sign.
+function sorted(equation) {
+    const terms = equation.replace(/-/g, '+-').split('+').filter(Boolean);
+    const number = (term) => {
+        const [, sign, digits, powers] = /^(-?)(\d*)\*?(.*)$/.exec(term);
+        return [powers.split('*').sort().join('*'), BigInt(`${sign}${digits || 1}`)];
+    };
+    const rows = terms.map(number).sort(([a], [b]) => (a < b ? -1 : 1));
+    return rows.map(([powers, c]) => `${rows[0][1] < 0n ? -c : c} ${powers}`);
+}
+
+test('Singular finds the same equations', { skip: hasSingular ? false : 'Singular is not here' }, () => {
+    for (const [name, generators] of Object.entries(ELIMINATED)) {
+        const [, texts] = SURFACES.find(([other]) => other === name);
+        assert.deepEqual(sorted(eliminate(generators)), sorted(usual(texts).equation), name);
+    }
+});
+
 const torus = SURFACES.find(([name]) => name === 'torus')[1];
 
 test('a coefficient that is one off is seen by the oracle', () => {
