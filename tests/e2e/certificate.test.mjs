@@ -193,6 +193,21 @@ test('the badge tells how much the patch covers, and one edit keeps only the pat
     await closePage(page);
 });
 
+test('a root becomes what cuts it, in one edit', async () => {
+    const id = await stage.scene({ ...scene({}), root: { id: 'it', type: 'implicit', params: HALF } });
+    const page = await stage.page({ scene: id });
+    await row(page, 'it').click();
+    await page.getByRole('button', { name: 'Keep only the patch' }).click();
+    const { root } = await documentWhen(stage, id, (d) => d.root.type === 'intersection', 'the patch alone');
+    const [sheet, patch] = root.children;
+    assert.deepEqual([root.id, sheet.type, sheet.params], ['it', 'implicit', { ...HALF, mode: 'sheet' }]);
+    assert.deepEqual([patch.type, patch.params], ['parametric', { surface: HALF.parametric, thickness: 0.04 }]);
+    await page.keyboard.press('Control+z');
+    const back = await documentWhen(stage, id, (d) => d.root.type === 'implicit', 'one step back');
+    assert.deepEqual([back.root.params, back.root.children], [HALF, undefined]);
+    await closePage(page);
+});
+
 test('the dialog tells of the clip that the badge tells of', async () => {
     const { page } = await open(UMBRELLA);
     await told(page, /The patch covers/);

@@ -95,7 +95,7 @@ test("each edit of the protocol's page applies to the scene above it, and back",
             edits.push([scene, json]);
         }
     }
-    expect(edits).toHaveLength(4);
+    expect(edits).toHaveLength(5);
     for (const [i, [before, edit]] of edits.entries()) {
         const document = readDocument(before);
         const result = apply(document, edit as unknown as Operation[], SCHEMA);

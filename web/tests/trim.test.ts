@@ -88,13 +88,27 @@ test("without a thickness of its own the patch has twice the row's; nothing else
     });
 });
 
-test("there is none without a surface, without a parent, and where it is done", () => {
+test("a root keeps its id, place and material, and cuts what it was", () => {
+    const more = { id: "it", name: "Umbrella", material: "clay", transform: PLACE };
+    expect(kept(readDocument({ root: equation(more, { thickness: 0.2 }) }))).toEqual({
+        ...more,
+        type: "intersection",
+        children: [
+            equation({ id: "implicit-1" }, { thickness: 0.2, mode: "sheet" }),
+            {
+                ...{ id: "parametric-1", type: "parametric" },
+                params: { surface: SURFACE, thickness: 0.4 },
+            },
+        ],
+    });
+});
+
+test("there is none without a surface, and where it is done", () => {
     const of = (document: SceneDocument, id = "it") => keepPatch(SCHEMA, document, id);
     const patch = { id: "patch", type: "parametric" };
     expect(of(scene([equation({}, { parametric: {} })]))).toBeNull();
     expect(of(scene([patch]), "patch")).toBeNull();
     expect(of(scene([]), "it")).toBeNull();
-    expect(of(readDocument({ root: equation() }))).toBeNull();
     expect(of(scene([equation(), patch], "intersection"))).toBeNull();
     /* Beside a patch that does not cut it, and cut by something else. */
     expect(of(scene([equation(), patch]))).not.toBeNull();

@@ -17,7 +17,45 @@ function isTrimmed(document: SceneDocument, node: SceneNode): boolean {
     return parent?.type === "intersection" && beside.some(isPatch);
 }
 
-/* null: there is no surface beside the equation, nowhere to put it, or it is so already. */
+const patchOf = (document: SceneDocument, params: JsonObject, more: JsonObject): JsonObject => ({
+    id: freshIds(document)("parametric"),
+    type: "parametric",
+    ...more,
+    params,
+});
+
+/* A root stays, with its place and material, and cuts what it was. */
+function cutRoot(document: SceneDocument, node: SceneNode, patch: JsonObject): Operation[] {
+    const at = `/nodes/${node.id}`;
+    const sheet = {
+        id: freshIds(document)(node.type),
+        type: node.type,
+        params: { ...node.params, mode: "sheet" },
+    };
+    return [
+        { op: "set", at: `${at}/type`, value: "intersection" },
+        { op: "insert", into: at, before: null, value: sheet },
+        { op: "insert", into: at, before: null, value: patchOf(document, patch, {}) },
+    ];
+}
+
+function cutChild(document: SceneDocument, node: SceneNode, patch: JsonObject): Operation[] {
+    const [insert, ...moves] = wrap(document, [node.id], "intersection").ops;
+    const into = insert?.op === "insert" && isObject(insert.value) ? String(insert.value.id) : "";
+    const { material } = node.common;
+    const value = patchOf(document, patch, {
+        ...(material === undefined ? {} : { material }),
+        ...(Object.keys(node.transform).length > 0 ? { transform: node.transform } : {}),
+    });
+    return [
+        ...(insert ? [insert] : []),
+        ...moves,
+        { op: "set", at: `/nodes/${node.id}/params/mode`, value: "sheet" },
+        { op: "insert", into: `/nodes/${into}`, before: null, value },
+    ];
+}
+
+/* null: there is no surface beside the equation, or it is so already. */
 export function keepPatch(
     schema: Schema,
     document: SceneDocument,
@@ -26,27 +64,17 @@ export function keepPatch(
     const node = document.nodes.get(id);
     const surface = node?.params.parametric;
     const thickness = paramAt(schema, document, `/nodes/${id}/params/thickness`);
-    if (!node || readSurface(surface) === null || !thickness || isTrimmed(document, node)) {
+    if (
+        !node ||
+        surface === undefined ||
+        readSurface(surface) === null ||
+        !thickness ||
+        isTrimmed(document, node)
+    ) {
         return null;
     }
-    const [insert, ...moves] = wrap(document, [id], "intersection").ops;
-    if (insert?.op !== "insert" || !isObject(insert.value)) {
-        return null;
-    }
-    const into = String(insert.value.id);
     const params = { surface, thickness: 2 * Number(valueIn(thickness.values, thickness.param)) };
-    const { material } = node.common;
-    const patch = {
-        id: freshIds(document)("parametric"),
-        type: "parametric",
-        ...(material === undefined ? {} : { material }),
-        ...(Object.keys(node.transform).length > 0 ? { transform: node.transform } : {}),
-        params,
-    } as JsonObject;
-    return [
-        insert,
-        ...moves,
-        { op: "set", at: `/nodes/${id}/params/mode`, value: "sheet" },
-        { op: "insert", into: `/nodes/${into}`, before: null, value: patch },
-    ];
+    return node.parent === null
+        ? cutRoot(document, node, params)
+        : cutChild(document, node, params);
 }
