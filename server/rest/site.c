@@ -218,6 +218,8 @@ static const struct {
     {"surface-bottle", SURFACE},
     {"surface-shell", SURFACE},
     {"surface-helicoid", SURFACE},
+    {"surface-bicubic", SURFACE},
+    {"surface-rim", SURFACE},
     {"surface-decocube", SURFACE},
     {"surface-octic", SURFACE},
     {"surface-endrass", SURFACE},

@@ -24,7 +24,7 @@ enum {
     PER_MILLE = 10, /* more of them are edges, where one ray meets another surface */
     FRACTAL_PER_MILLE = 60,
     SCENE_BYTES = 10000,
-    SMALL = 52,         /* examples, of */
+    SMALL = 53,         /* examples, of */
     SMALL_BYTES = 6000, /* of a document; drivers compile larger ones for long */
 };
 

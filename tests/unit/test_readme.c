@@ -86,13 +86,13 @@ static void examples_of_the_readme(void **state)
         block = end;
     }
     assert_int_equal(scenes, 7);
-    assert_int_equal(edits, 4);
+    assert_int_equal(edits, 5);
     assert_null(strstr(readme, "\n```json\n")); /* every example says what it is */
     scene_destroy(scene);
     free(readme);
 }
 
-enum { EXAMPLES = 71 };
+enum { EXAMPLES = 73 };
 
 static void example_scenes(void **state)
 {

@@ -38,6 +38,15 @@ function examples(kind: string): Json[] {
 const SCHEMA = readSchema({
     nodes: [
         { type: "union", group: "operation", params: [] },
+        { type: "intersection", group: "operation", params: [] },
+        {
+            ...{ type: "implicit", group: "primitive" },
+            params: [
+                { name: "equation", type: "equation" },
+                { name: "parametric", type: "surface" },
+            ],
+        },
+        { type: "parametric", group: "primitive", params: [{ name: "surface", type: "surface" }] },
         { type: "smooth_union", group: "operation", params: [{ name: "k", type: "float" }] },
         { type: "sphere", group: "primitive", params: [{ name: "radius", type: "float" }] },
         { type: "box", group: "primitive", params: [{ name: "size", type: "vec3" }] },
