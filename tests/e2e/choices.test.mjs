@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Choices of who points and presses: a trackpad whose two fingers orbit, single keys that do nothing.
+// Choices of who points and presses: a trackpad whose two fingers orbit, single keys that do nothing,
+// keys like those of another tool, and keys of one's own.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { until } from '../support/daemon.mjs';
@@ -63,4 +64,51 @@ test('single keys act, or do not; other keys always do', async () => {
     await picture(page).focus();
     await page.keyboard.press('k');
     await until(async () => (await page.getByTestId('section').count()) === 1, 'the plane of K');
+});
+
+test('keys like those of another tool, and chosen ones, also after a reload', async () => {
+    const page = await stage.page({ scene: await stage.scene() });
+    const dialog = page.getByRole('dialog');
+    const leave = async () => {
+        await page.keyboard.press('Escape');
+        await dialog.waitFor({ state: 'detached' });
+    };
+    const isRotating = () => page.getByRole('button', { name: 'Rotate', exact: true }).getAttribute('aria-pressed');
+    await settled(page);
+    await row(page, 'ball').click();
+    await page.keyboard.press('e');
+    assert.equal(await isRotating(), 'false');
+    await page.keyboard.press('?');
+    await dialog.getByRole('combobox', { name: 'Keys like those of' }).click();
+    await page.getByRole('option', { name: 'three.js, Unity' }).click();
+    await dialog.getByRole('switch', { name: 'Change keys' }).click();
+    const hide = dialog.getByRole('button', { name: /^Hide or show:/ });
+    await hide.click();
+    await page.keyboard.press('Escape'); // of the button, not of the dialog
+    await hide.getByText('Press a key').waitFor({ state: 'detached' });
+    await hide.click();
+    await page.keyboard.press('Shift+W');
+    await hide.getByText('Wrap in').waitFor();
+    await page.keyboard.press('q');
+    await hide.getByText('Q', { exact: true }).waitFor();
+    await leave();
+    for (const round of ['at once', 'after a reload']) {
+        await row(page, 'ball').click();
+        await page.keyboard.press('w');
+        assert.equal(await isRotating(), 'false', round);
+        await page.keyboard.press('e');
+        assert.equal(await isRotating(), 'true', round);
+        await page.keyboard.press('q');
+        await page.locator('[data-node=ball][data-hidden]').waitFor();
+        await page.keyboard.press('q');
+        await page.locator('[data-node=ball]:not([data-hidden])').waitFor();
+        await page.reload();
+        await settled(page);
+    }
+    await page.keyboard.press('?');
+    await dialog.getByRole('button', { name: 'All keys as they were' }).click();
+    await leave();
+    await row(page, 'ball').click();
+    await page.keyboard.press('h');
+    await page.locator('[data-node=ball][data-hidden]').waitFor();
 });

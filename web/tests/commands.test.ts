@@ -7,15 +7,22 @@ import { paste } from "../src/model/clipboard.ts";
 import {
     commandById,
     commandForKey,
-    overlap,
     runCommand,
     searchAbsent,
     searchCommands,
 } from "../src/model/commandLookup.ts";
-import { ABSENT, COMMANDS, type Context } from "../src/model/commands.ts";
+import { ABSENT, COMMANDS, type Command, type Context } from "../src/model/commands.ts";
 import { isApart } from "../src/model/document.ts";
 import { printDocument, readDocument } from "../src/model/documentJson.ts";
 import { moveNodes, wrap } from "../src/model/edits.ts";
+import {
+    isTaken,
+    KEYMAPS,
+    type KeyChoices,
+    keysOf,
+    overlap,
+    rivalOf,
+} from "../src/model/keymap.ts";
 import type { KeyPress } from "../src/model/keys.ts";
 import { fits } from "../src/model/moves.ts";
 import type { Operation } from "../src/model/operation.ts";
@@ -29,7 +36,10 @@ import {
     sectionSeenFrom,
 } from "../src/model/section.ts";
 import { createStores } from "../src/model/stores.ts";
+import { PREFERENCES, readPreferences } from "../src/model/view.ts";
 import { SCHEMA, scene } from "./fixture.ts";
+
+const CHOICES: KeyChoices = PREFERENCES;
 
 /* A page without a server: edits apply to its document. */
 function page(selection: readonly string[] = []) {
@@ -83,14 +93,45 @@ const press = (key: string, mods: string = "", code = ""): KeyPress => ({
     altKey: mods.includes("a"),
 });
 
-test("no key means two commands in one place", () => {
+test.each(KEYMAPS)("no key of %s means two commands in one place", (keymap) => {
+    const choices = { ...CHOICES, keymap };
     for (const a of COMMANDS) {
         for (const b of COMMANDS) {
             if (a !== b && overlap(a.when, b.when)) {
-                expect(a.keys.filter((key) => b.keys.includes(key))).toEqual([]);
+                const keys = keysOf(b, choices);
+                expect(keysOf(a, choices).filter((key) => keys.includes(key))).toEqual([]);
             }
         }
     }
+});
+
+test("keys are those of another tool, or chosen ones, which are kept", () => {
+    const of = (key: KeyPress, choices: KeyChoices) =>
+        commandForKey(key, "anywhere", "no", choices)?.id;
+    const w = press("w", "", "KeyW");
+    const q = press("q", "", "KeyQ");
+    const unity: KeyChoices = { ...CHOICES, keymap: "unity" };
+    expect(of(w, CHOICES)).toBe("node.wrap");
+    expect(of(w, unity)).toBe("hands.tool.move");
+    expect(of(press("W", "s", "KeyW"), unity)).toBe("node.wrap");
+    const chosen = readPreferences(JSON.stringify({ keys: { "node.hide": "Q", "node.wrap": "" } }));
+    expect(of(q, chosen)).toBe("node.hide");
+    expect(of(press("h", "", "KeyH"), chosen)).toBeUndefined();
+    expect(of(w, chosen)).toBeUndefined();
+    expect(readPreferences('{"keys":{"node.hide":7},"keymap":"x"}')).toMatchObject({
+        keys: {},
+        keymap: "fieldcast",
+    });
+});
+
+test("a key is refused that is another command's in the same place, or the browser's", () => {
+    const hide = commandById("node.hide") as Command;
+    const rival = (key: string) => rivalOf(key, hide, COMMANDS, CHOICES)?.id;
+    expect(rival("W")).toBe("node.wrap");
+    expect(rival("H")).toBeUndefined();
+    expect(rival("Q")).toBeUndefined();
+    expect(["Tab", "Ctrl+N", "Esc", "Shift+F6", "Up", "Ctrl+Shift+Tab"].every(isTaken)).toBe(true);
+    expect(["Q", "Ctrl+Shift+S", "Alt+Up", "F2"].some(isTaken)).toBe(false);
 });
 
 test("every command has an id of its own and a title", () => {
@@ -113,6 +154,8 @@ test.each<[KeyPress, Context, string | undefined]>([
     [press("d", "c", "KeyD"), "view", "node.duplicate"],
     [press("F2"), "tree", "node.rename"],
     [press("h", "", "KeyH"), "tree", "node.hide"],
+    [press("m", "", "KeyM"), "tree", "node.hide"],
+    [press("/", "", "Slash"), "view", "node.isolate"],
     [press("˙", "a", "KeyH"), "tree", "node.showAll"],
     [press("ArrowUp", "a"), "tree", "node.up"],
     [press("ArrowUp"), "view", "camera.orbit.up"],
@@ -126,17 +169,21 @@ test.each<[KeyPress, Context, string | undefined]>([
     [press("?", "s", "Slash"), "anywhere", "help.keys"],
     [press("Escape"), "anywhere", "escape"],
 ])("%o in %s", (key, where, id) => {
-    expect(commandForKey(key, where, "no", true)?.id).toBe(id);
+    expect(commandForKey(key, where, "no", CHOICES)?.id).toBe(id);
 });
 
 test("a key typed into a field is no command, and single keys can be switched off", () => {
-    expect(commandForKey(press("h", "", "KeyH"), "anywhere", "text", true)).toBeNull();
-    expect(commandForKey(press("z", "c", "KeyZ"), "anywhere", "text", true)).toBeNull();
-    expect(commandForKey(press("k", "c", "KeyK"), "anywhere", "text", true)?.id).toBe(
+    expect(commandForKey(press("h", "", "KeyH"), "anywhere", "text", CHOICES)).toBeNull();
+    expect(commandForKey(press("z", "c", "KeyZ"), "anywhere", "text", CHOICES)).toBeNull();
+    expect(commandForKey(press("k", "c", "KeyK"), "anywhere", "text", CHOICES)?.id).toBe(
         "palette.open",
     );
-    expect(commandForKey(press("h", "", "KeyH"), "anywhere", "no", false)).toBeNull();
-    expect(commandForKey(press("Delete"), "anywhere", "no", false)?.id).toBe("node.delete");
+    expect(
+        commandForKey(press("h", "", "KeyH"), "anywhere", "no", { ...CHOICES, singleKeys: false }),
+    ).toBeNull();
+    expect(
+        commandForKey(press("Delete"), "anywhere", "no", { ...CHOICES, singleKeys: false })?.id,
+    ).toBe("node.delete");
 });
 
 test("delete leaves the neighbour selected; the root stays", () => {
@@ -207,11 +254,11 @@ test("wrap and dissolve are each other's way back", () => {
 
 test("undo and redo act in a field while nothing is typed there", () => {
     const [z, y] = [press("z", "c", "KeyZ"), press("y", "c", "KeyY")];
-    expect(commandForKey(z, "anywhere", "unchanged", true)?.id).toBe("edit.undo");
-    expect(commandForKey(y, "anywhere", "unchanged", true)?.id).toBe("edit.redo");
-    expect(commandForKey(z, "anywhere", "text", true)).toBeNull();
-    expect(commandForKey(press("h", "", "KeyH"), "anywhere", "unchanged", true)).toBeNull();
-    expect(commandForKey(press("d", "c", "KeyD"), "anywhere", "unchanged", true)).toBeNull();
+    expect(commandForKey(z, "anywhere", "unchanged", CHOICES)?.id).toBe("edit.undo");
+    expect(commandForKey(y, "anywhere", "unchanged", CHOICES)?.id).toBe("edit.redo");
+    expect(commandForKey(z, "anywhere", "text", CHOICES)).toBeNull();
+    expect(commandForKey(press("h", "", "KeyH"), "anywhere", "unchanged", CHOICES)).toBeNull();
+    expect(commandForKey(press("d", "c", "KeyD"), "anywhere", "unchanged", CHOICES)).toBeNull();
 });
 
 test("deleting says what is gone, with the step that brings it back", () => {
@@ -398,7 +445,7 @@ test("to isolate is no edit, and ends by the same key, Escape, or showing all", 
     }
     expect(run("node.isolate")).not.toBeNull();
     expect(done).toEqual([]);
-    expect(commandForKey(press("H", "s", "KeyH"), "tree", "no", true)?.id).toBe("node.isolate");
+    expect(commandForKey(press("H", "s", "KeyH"), "tree", "no", CHOICES)?.id).toBe("node.isolate");
 });
 
 test("a section is no edit, looks at the cut, and ends by the same key or Escape", async () => {
@@ -415,7 +462,7 @@ test("a section is no edit, looks at the cut, and ends by the same key or Escape
         expect(stores.view.getState().selection).toEqual(["head"]);
     }
     expect(done).toEqual([]);
-    expect(commandForKey(press("k", "", "KeyK"), "view", "no", true)?.id).toBe("view.section");
+    expect(commandForKey(press("k", "", "KeyK"), "view", "no", CHOICES)?.id).toBe("view.section");
 });
 
 test("a section goes through the box of what is shown, where the server knows it", async () => {

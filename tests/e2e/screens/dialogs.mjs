@@ -127,6 +127,12 @@ export const DIALOGS = [
     ['commands, not there', (page) => search(page, 'Control+k', 'mesh')],
     ['commands, nothing found', (page) => search(page, 'Control+k', 'xyzzy')],
     ['keys', key('?')],
+    ['keys to change', async (page) => {
+        await page.keyboard.press('?');
+        await page.getByRole('switch', { name: 'Change keys' }).click();
+        await page.getByRole('button', { name: /^Hide or show:/ }).click();
+        await page.keyboard.press('Shift+M');
+    }],
     ['reference', key('F1')],
     ['reference, a type', async (page) => {
         await select(page, 'crown');

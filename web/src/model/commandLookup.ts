@@ -2,6 +2,7 @@
 /* Finding commands: by id, by a key press, by words; and running one. */
 import type { App } from "./actions.ts";
 import { ABSENT, type Absent, COMMANDS, type Command, type Context } from "./commands.ts";
+import { type KeyChoices, keysOf } from "./keymap.ts";
 import { isSingleKey, type KeyPress, nameOfPress } from "./keys.ts";
 import { search } from "./search.ts";
 
@@ -9,11 +10,6 @@ const BY_ID = new Map(COMMANDS.map((command) => [command.id, command]));
 
 export function commandById(id: string): Command | null {
     return BY_ID.get(id) ?? null;
-}
-
-/* Do two contexts overlap: could one key press mean both? */
-export function overlap(a: Context, b: Context): boolean {
-    return a === b || a === "anywhere" || b === "anywhere";
 }
 
 /* What has the focus: nothing that takes text, a field as the document has it, or a text that is
@@ -24,22 +20,22 @@ function allows({ inFields }: Command, typing: Typing): boolean {
     return typing === "no" || inFields === true || (inFields === typing && typing === "unchanged");
 }
 
-/* The command for a key press with the focus in `where`; null: none. `singleKeys` false: keys
- * without Ctrl or Alt do nothing. */
+/* The command for a key press with the focus in `where`; null: none. */
 export function commandForKey(
     press: KeyPress,
     where: Context,
     typing: Typing,
-    singleKeys: boolean,
+    choices: KeyChoices,
 ): Command | null {
     const name = nameOfPress(press);
     const command = COMMANDS.find(
-        ({ keys, when }) => keys.includes(name) && (when === "anywhere" || when === where),
+        (one) =>
+            (one.when === "anywhere" || one.when === where) && keysOf(one, choices).includes(name),
     );
     if (!command || !allows(command, typing)) {
         return null;
     }
-    return isSingleKey(name) && !singleKeys ? null : command;
+    return isSingleKey(name) && !choices.singleKeys ? null : command;
 }
 
 /* Runs a command unless something speaks against it; answers the reason or null. */

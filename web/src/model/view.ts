@@ -5,6 +5,7 @@
 import type { Box } from "./camera.ts";
 import { MOTIONS, type Motion } from "./grip.ts";
 import { PIVOTS, type Pivot, SPACES, type Space } from "./hands.ts";
+import { KEYMAPS, type KeyChoices } from "./keymap.ts";
 import type { Operation } from "./operation.ts";
 import type { ListName, RecordName } from "./places.ts";
 import { WAY_NAMES, type Way } from "./placing.ts";
@@ -40,7 +41,7 @@ export const COLOR = "color";
 export const QUALITIES: readonly Quality[] = ["auto", "smooth", "sharp"];
 
 /* What stays from visit to visit. */
-export interface Preferences {
+export interface Preferences extends KeyChoices {
     readonly theme: Theme;
     readonly pointing: Pointing;
     readonly quality: Quality;
@@ -52,8 +53,6 @@ export interface Preferences {
     };
     /* Names of hints that were followed or closed. */
     readonly hintsDone: readonly string[];
-    /* Single keys (G, H, F …) act as commands; some assistive tools need that off. */
-    readonly singleKeys: boolean;
     /* Rows of the tree have pictures of their nodes. */
     readonly thumbnails: boolean;
     /* Node types last added, newest first. */
@@ -90,6 +89,8 @@ export const PREFERENCES: Preferences = {
     panels: { scene: true, inspector: true, graph: false, text: false },
     hintsDone: [],
     singleKeys: true,
+    keymap: "fieldcast",
+    keys: {},
     thumbnails: true,
     recent: [],
     way: "union",
@@ -283,6 +284,10 @@ export function readPreferences(text: string | null): Preferences {
         },
         hintsDone: texts(stored.hintsDone),
         singleKeys: stored.singleKeys !== false,
+        keymap: one(stored.keymap, KEYMAPS, PREFERENCES.keymap),
+        keys: Object.fromEntries(
+            Object.entries(stored.keys ?? {}).filter(([, key]) => typeof key === "string"),
+        ),
         thumbnails: stored.thumbnails !== false,
         recent: texts(stored.recent).slice(0, 12),
         way: one(stored.way, WAY_NAMES, PREFERENCES.way),

@@ -5,7 +5,7 @@ import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { Button, IconButton } from "../widgets/Button.tsx";
 import { MenuItem } from "../widgets/Menu.tsx";
-import { keyText } from "./keys.ts";
+import { useKeyText } from "./keys.ts";
 
 interface Props {
     id: string;
@@ -27,11 +27,12 @@ export function ActButton({ id, children }: Props) {
     const editor = useEditor();
     const command = commandById(id);
     const reason = useReason(id);
+    const keys = useKeyText(id);
     return (
         command && (
             <IconButton
                 title={command.title}
-                keys={keyText(command.keys[0])}
+                keys={keys}
                 whyNot={reason}
                 data-command={id}
                 onClick={() => runCommand(editor, command)}
@@ -69,6 +70,7 @@ export function ActItem({ id, danger, icon, onlyIfAble }: ItemProps) {
     const editor = useEditor();
     const command = commandById(id);
     const reason = useReason(id);
+    const keys = useKeyText(id);
     const shown = onlyIfAble !== true || reason === null;
     return (
         command &&
@@ -76,7 +78,7 @@ export function ActItem({ id, danger, icon, onlyIfAble }: ItemProps) {
             <MenuItem
                 icon={icon}
                 danger={danger}
-                keys={keyText(command.keys[0])}
+                keys={keys}
                 disabled={reason !== null}
                 onSelect={() => runCommand(editor, command)}
             >

@@ -32,7 +32,7 @@ import { Logo } from "../widgets/Logo.tsx";
 import { Menu, MenuItem, MenuLine } from "../widgets/Menu.tsx";
 import { Tip } from "../widgets/Tip.tsx";
 import { ActItem } from "./Act.tsx";
-import { keyText } from "./keys.ts";
+import { useKeyText } from "./keys.ts";
 import { Region } from "./Region.tsx";
 import { Saved } from "./Saved.tsx";
 import "./layout.css";
@@ -40,7 +40,7 @@ import "./layout.css";
 export function Bar({ narrow }: { narrow: boolean }) {
     return (
         <Region as="header" name={t("region.bar")} className="bar">
-            <Tip text={t("bar.scenes")} keys={keyText("Ctrl+O")}>
+            <Tip text={t("bar.scenes")} keys={useKeyText("scene.open")}>
                 <a
                     className="bar-logo"
                     href={addressOf(null)}
@@ -138,7 +138,7 @@ function SceneMenu({ onRename }: { onRename: () => void }) {
             </MenuItem>
             <MenuItem
                 icon={<FileImage size={14} />}
-                keys={keyText("Ctrl+Shift+S")}
+                keys={useKeyText("scene.picture")}
                 onSelect={() => editor.stores.view.setState({ popup: "picture" })}
             >
                 {t("bar.downloadPicture")}
@@ -166,7 +166,7 @@ function History() {
         <>
             <IconButton
                 title={undo}
-                keys={keyText("Ctrl+Z")}
+                keys={useKeyText("edit.undo")}
                 data-command="edit.undo"
                 whyNot={canUndo ? null : t("history.noUndo")}
                 onClick={() => editor.undo()}
@@ -175,7 +175,7 @@ function History() {
             </IconButton>
             <IconButton
                 title={redo}
-                keys={keyText("Ctrl+Shift+Z")}
+                keys={useKeyText("edit.redo")}
                 data-command="edit.redo"
                 whyNot={canRedo ? null : t("history.noRedo")}
                 onClick={() => editor.redo()}
@@ -189,7 +189,7 @@ function History() {
 function AddButton({ narrow }: { narrow: boolean }) {
     const editor = useEditor();
     return (
-        <Tip text={t("add.title")} keys={keyText("Shift+A")}>
+        <Tip text={t("add.title")} keys={useKeyText("node.add")}>
             <Button
                 look="primary"
                 icon={<Plus size={15} strokeWidth={2.4} />}
@@ -205,6 +205,7 @@ function AddButton({ narrow }: { narrow: boolean }) {
 
 function SearchButton({ narrow }: { narrow: boolean }) {
     const editor = useEditor();
+    const keys = useKeyText("palette.open");
     const open = (): void => editor.stores.view.setState({ popup: "commands" });
     if (narrow) {
         return (
@@ -217,7 +218,7 @@ function SearchButton({ narrow }: { narrow: boolean }) {
         <button type="button" className="search-button" onClick={open}>
             <Search size={14} aria-hidden="true" />
             <span className="ellipsis">{t("bar.search")}</span>
-            <kbd>{keyText("Ctrl+K")}</kbd>
+            <kbd>{keys}</kbd>
         </button>
     );
 }

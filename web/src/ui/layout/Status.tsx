@@ -7,7 +7,7 @@ import { useDocument, useEditor, useView } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
 import { TOUCH, useMedia } from "../theme.ts";
 import { Tip } from "../widgets/Tip.tsx";
-import { keyText } from "./keys.ts";
+import { keyText, useKeyText } from "./keys.ts";
 import { Region } from "./Region.tsx";
 import { Saved } from "./Saved.tsx";
 import "./layout.css";
@@ -46,7 +46,7 @@ function DrawerTab({ drawer }: { drawer: keyof typeof drawers }) {
     const { command, icon: Icon } = drawers[drawer];
     const row = commandById(command);
     return (
-        <Tip text={row?.title ?? ""} keys={keyText(row?.keys[0])}>
+        <Tip text={row?.title ?? ""} keys={useKeyText(command)}>
             <button
                 type="button"
                 className="status-tab"

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* Keys of the page: finds the command for a press where the focus is, and F6 between regions. */
 import { useEffect } from "react";
-import { commandForKey, runCommand, type Typing } from "../../model/commandLookup.ts";
+import { commandById, commandForKey, runCommand, type Typing } from "../../model/commandLookup.ts";
 import type { Context } from "../../model/commands.ts";
+import { keysOf } from "../../model/keymap.ts";
 import { addNotice } from "../../model/stores.ts";
 import { text } from "../../model/texts.ts";
 import type { Editor } from "../editor.ts";
 import { forgetKept, keepForPalette } from "../palettes/ahead.ts";
+import { useView } from "../state.ts";
 
 function contextOf(element: Element | null): Context {
     const context = element?.closest<HTMLElement>("[data-context]")?.dataset.context;
@@ -57,7 +59,7 @@ export function useKeys(editor: Editor): void {
                 return;
             }
             const { preferences } = editor.stores.view.getState();
-            const command = commandForKey(event, contextOf(focus), typing, preferences.singleKeys);
+            const command = commandForKey(event, contextOf(focus), typing, preferences);
             if (command === null || (floats && command.inFields !== "unchanged")) {
                 return;
             }
@@ -89,6 +91,14 @@ export function useKeys(editor: Editor): void {
 }
 
 const mac = /Mac|iPhone|iPad/.test(navigator.platform);
+
+/* The first key of a command, by its id. */
+export function useKeyText(id: string): string | undefined {
+    const command = commandById(id);
+    return useView(({ preferences }) =>
+        command ? keyText(keysOf(command, preferences)[0]) : undefined,
+    );
+}
 
 /* Keys as this machine's people write them. */
 export function keyText(keys: string | undefined): string | undefined {

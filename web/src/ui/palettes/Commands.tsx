@@ -5,6 +5,7 @@ import { type ReactNode, useCallback, useEffect, useState } from "react";
 import type { SceneEntry } from "../../link/rest.ts";
 import { runCommand, searchAbsent, searchCommands } from "../../model/commandLookup.ts";
 import { nodeLabel, type SceneDocument, typesOf } from "../../model/document.ts";
+import { keysOf } from "../../model/keymap.ts";
 import type { EntryRow } from "../../model/libraryEntries.ts";
 import { LIST_NAMES, LISTS } from "../../model/places.ts";
 import { nodeType, outputsShown, type Schema } from "../../model/schema.ts";
@@ -38,10 +39,11 @@ const MOST_NODES = 12;
 const MOST_OTHERS = 8;
 
 function commandEntries(editor: Editor, query: string): Entry[] {
+    const { preferences } = editor.stores.view.getState();
     const found = searchCommands(query).map((command) => ({
         id: `command-${command.id}`,
         title: command.title,
-        keys: keyText(command.keys[0]),
+        keys: keyText(keysOf(command, preferences)[0]),
         icon: <ChevronRight size={15} aria-hidden="true" />,
         whyNot: command.whyNot(editor),
         run: () => {

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* The sheet of keys, made from the table of commands, with the gestures beside them. */
-import { useRef } from "react";
-import { COMMANDS, type Command } from "../../model/commands.ts";
+import { useRef, useState } from "react";
+import { COMMANDS } from "../../model/commands.ts";
+import type { Keymap } from "../../model/keymap.ts";
 import { setPreferences } from "../../model/stores.ts";
 import { FlagField } from "../fields/Flag.tsx";
 import { keyText } from "../layout/keys.ts";
 import { useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
+import { Button } from "../widgets/Button.tsx";
 import { Dialog } from "../widgets/Dialog.tsx";
+import { Select } from "../widgets/Select.tsx";
+import { KeyGroup } from "./KeyRows.tsx";
 import { KEY_TEXTS, type KeyText } from "./keyTexts.ts";
 import "./palettes.css";
 
@@ -64,6 +68,7 @@ export function Keys() {
     const { stores } = useEditor();
     const open = useView((view) => view.popup === "help");
     const list = useRef<HTMLElement>(null);
+    const [changes, setChanges] = useState(false);
     const groups = [...new Set(COMMANDS.map((command) => command.group))];
     return (
         <Dialog
@@ -91,67 +96,66 @@ export function Keys() {
                         </dl>
                     </section>
                 ))}
-                <Choices />
+                <Choices changes={changes} onChanges={setChanges} />
                 {groups.map((group) => (
-                    <KeyGroup key={group} group={group} />
+                    <KeyGroup key={group} group={group} changes={changes} />
                 ))}
             </section>
         </Dialog>
     );
 }
 
-function Choices() {
-    const { stores } = useEditor();
-    const { pointing, singleKeys } = useView(({ preferences }) => preferences);
-    const rows = [
-        ["singleKeys", singleKeys, (on: boolean) => ({ singleKeys: on })],
+const KEYMAP_OPTIONS: readonly { value: Keymap; label: string }[] = [
+    { value: "fieldcast", label: KEY_TEXTS.fieldcast },
+    { value: "unity", label: KEY_TEXTS.unity },
+];
+
+interface ChoicesProps {
+    changes: boolean;
+    onChanges: (on: boolean) => void;
+}
+
+function Choices({ changes, onChanges }: ChoicesProps) {
+    const { view } = useEditor().stores;
+    const { pointing, singleKeys, keymap, keys } = useView(({ preferences }) => preferences);
+    const switches = [
+        ["singleKeys", singleKeys, (on: boolean) => setPreferences(view, { singleKeys: on })],
         [
             "trackpad",
             pointing === "trackpad",
-            (on: boolean) => ({ pointing: on ? ("trackpad" as const) : ("mouse" as const) }),
+            (on: boolean) => setPreferences(view, { pointing: on ? "trackpad" : "mouse" }),
         ],
+        ["changes", changes, onChanges],
     ] as const;
     return (
         <section>
             <h3>{KEY_TEXTS.choices}</h3>
             <dl>
-                {rows.map(([name, value, choice]) => (
+                <div>
+                    <dt>{KEY_TEXTS.keymap}</dt>
+                    <dd>
+                        <Select
+                            label={KEY_TEXTS.keymap}
+                            value={keymap}
+                            options={KEYMAP_OPTIONS}
+                            onChange={(next) => setPreferences(view, { keymap: next as Keymap })}
+                        />
+                    </dd>
+                </div>
+                {switches.map(([name, value, onCommit]) => (
                     <div key={name}>
                         <dt>{KEY_TEXTS[name]}</dt>
                         <dd>
-                            <FlagField
-                                label={KEY_TEXTS[name]}
-                                value={value}
-                                onCommit={(on) => setPreferences(stores.view, choice(on))}
-                            />
+                            <FlagField label={KEY_TEXTS[name]} value={value} onCommit={onCommit} />
                         </dd>
                     </div>
                 ))}
             </dl>
-        </section>
-    );
-}
-
-function KeyGroup({ group }: { group: Command["group"] }) {
-    const rows = COMMANDS.filter((command) => command.group === group && command.keys.length > 0);
-    if (rows.length === 0) {
-        return null;
-    }
-    return (
-        <section>
-            <h3>{KEY_TEXTS[group]}</h3>
-            <dl>
-                {rows.map(({ id, title, keys }) => (
-                    <div key={id}>
-                        <dt>{title}</dt>
-                        <dd>
-                            {keys.slice(0, 2).map((key) => (
-                                <kbd key={key}>{keyText(key)}</kbd>
-                            ))}
-                        </dd>
-                    </div>
-                ))}
-            </dl>
+            {Object.keys(keys).length > 0 && (
+                <Button onClick={() => setPreferences(view, { keys: {} })}>
+                    {KEY_TEXTS.reset}
+                </Button>
+            )}
         </section>
     );
 }

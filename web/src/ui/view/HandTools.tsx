@@ -14,7 +14,7 @@ import { changeHands } from "../../model/actions.ts";
 import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { MOTIONS } from "../../model/grip.ts";
 import { PIVOTS, SPACES } from "../../model/hands.ts";
-import { keyText } from "../layout/keys.ts";
+import { useKeyText } from "../layout/keys.ts";
 import { useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { Menu, MenuItem, MenuLine } from "../widgets/Menu.tsx";
@@ -79,7 +79,7 @@ function Tool({ command: id, text, pressed, Icon }: ToolProps) {
     const editor = useEditor();
     const command = commandById(id);
     return (
-        <Tip text={text} keys={keyText(command?.keys[0])}>
+        <Tip text={text} keys={useKeyText(id)}>
             <button
                 type="button"
                 className="pill"
@@ -121,7 +121,7 @@ function Settings() {
             <MenuLine />
             <MenuItem
                 checked={snap}
-                keys={keyText("Shift+M")}
+                keys={useKeyText("hands.snap")}
                 onSelect={() => changeHands((now) => ({ snap: !now.snap }))(editor)}
             >
                 {t("hands.snap")}

@@ -5,7 +5,7 @@ import { Layers2, X } from "lucide-react";
 import { outputsShown } from "../../model/schema.ts";
 import { setPreferences } from "../../model/stores.ts";
 import { COLOR, QUALITIES } from "../../model/view.ts";
-import { keyText } from "../layout/keys.ts";
+import { useKeyText } from "../layout/keys.ts";
 import { lazyPart } from "../lazy.tsx";
 import { outputTitle } from "../names.ts";
 import { useDocument, useEditor, useView } from "../state.ts";
@@ -80,7 +80,7 @@ function Legend({ aov }: { aov: string }) {
 function Back() {
     const { stores } = useEditor();
     return (
-        <Tip text={t("output.back")} keys={keyText("Shift+Z")}>
+        <Tip text={t("output.back")} keys={useKeyText("view.color")}>
             <button
                 type="button"
                 className="pill outputs-back"
