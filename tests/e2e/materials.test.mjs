@@ -152,4 +152,23 @@ describe('values at hand', () => {
         await page.getByRole('heading', { name: '2 nodes' }).waitFor();
         await colour.waitFor({ state: 'detached' });
     });
+
+    test('a colour is taken from the picture: that of the surface, by one press', async () => {
+        await open();
+        await row(page, 'crate').click();
+        await page.locator('[data-param="diffuse"] .colour-button').first().click();
+        const { x, y, width, height } = await picture(page).boundingBox();
+        const ball = x + width / 2 - (1.5 / 7.16 / (2 * Math.tan(Math.PI / 8))) * height;
+        const take = page.getByRole('button', { name: 'Take from the picture' });
+        await take.click();
+        await page.keyboard.press('Escape'); // of the eyedropper alone
+        await take.click();
+        await page.mouse.click(ball, y + height / 2);
+        const taken = await when((d) => d.materials.slate.properties.diffuse[0] === 0.8, 'the colour of clay');
+        assert.deepEqual(taken.materials.slate.properties.diffuse, [0.8, 0.3, 0.2]);
+        assert.equal(await row(page, 'crate').getAttribute('aria-selected'), 'true');
+        await page.mouse.click(ball, y + height / 2);
+        await page.mouse.click(ball, y + height / 2); // the first one may close the sheet
+        await until(async () => (await row(page, 'ball').getAttribute('aria-selected')) === 'true', 'the ball');
+    });
 });

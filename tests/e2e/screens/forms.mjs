@@ -45,6 +45,12 @@ export const FORMS = [
         await page.locator('[data-param=diffuse] .colour-button').click();
         await page.getByLabel('diffuse Hex').waitFor();
     }],
+    ['colour from the picture', async (page) => {
+        await resource(page, 'clay');
+        await page.locator('[data-param=diffuse] .colour-button').click();
+        await page.getByLabel('diffuse Hex').waitFor();
+        await page.getByRole('button', { name: 'Take from the picture' }).click();
+    }],
     ['new material', async (page) => {
         await tab(page, 'Looks');
         await page.getByRole('button', { name: 'Add a material', exact: true }).first().click();

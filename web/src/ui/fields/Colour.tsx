@@ -9,6 +9,7 @@ import { fromHex, printNumber, splitStrength, tidy, toHex } from "../../model/un
 import { numbersOf } from "../../model/values.ts";
 import { t } from "../texts.ts";
 import { Popover } from "../widgets/Popover.tsx";
+import { Eyedropper } from "./Eyedropper.tsx";
 import { NumberField } from "./Number.tsx";
 import { TextField } from "./Text.tsx";
 import type { FieldProps } from "./types.ts";
@@ -95,6 +96,7 @@ export default function ColourField(props: FieldProps<readonly number[]>) {
                         onRefuse={onRefuse}
                     />
                 </div>
+                <Eyedropper onTake={onCommit} />
             </div>
         </Popover>
     );

@@ -3,55 +3,26 @@
  * picture that REST gives. Where it is asked for, also the node, the distance and the place there, at
  * once from the guide of the picture. */
 import { useEffect, useRef, useState } from "react";
-import { readNpy } from "../../link/npy.ts";
-import { printCamera } from "../../model/camera.ts";
 import { distanceAt, surfaceAt } from "../../model/distances.ts";
 import { nodeLabel } from "../../model/document.ts";
 import { nodeAt, shownGuide } from "../../model/guide.ts";
 import { projectionOf, type Spot } from "../../model/projection.ts";
-import { sectionMember } from "../../model/section.ts";
 import type { Vector } from "../../model/transform.ts";
 import { COLOR } from "../../model/view.ts";
 import { shownCamera } from "../../overlay/shown.ts";
 import type { Editor } from "../editor.ts";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
+import { pixelAt } from "./pixel.ts";
 import "./view.css";
 
 /* A pointer that moves on is not asked for. */
 const REST_MS = 90;
 
-type Values = readonly number[];
-
-async function valuesAt(
-    { stores, rest }: Editor,
-    element: Element,
-    { clientX, clientY }: PointerEvent,
-    signal: AbortSignal,
-): Promise<Values | null> {
-    const { scene } = stores.document.getState();
-    const box = element.getBoundingClientRect();
-    const [width, height] = [Math.round(box.width), Math.round(box.height)];
-    const pixel = (at: number, length: number): number =>
-        Math.min(length - 1, Math.max(0, Math.floor(at)));
-    const x = pixel(clientX - box.left, width);
-    const y = pixel(clientY - box.top, height);
-    const address = rest.imageUrl(scene ?? "", {
-        width,
-        height,
-        region: [x, y, 1, 1],
-        format: "npy",
-        outputs: [stores.view.getState().aov],
-        camera: printCamera(stores.camera.getState().camera),
-        ...sectionMember(stores.view.getState().section),
-    });
-    return readNpy(await (await rest.fetchFile(address, signal)).arrayBuffer());
-}
-
 /* Asks when the pointer rests; null while it is not over the picture. */
-function useValues(active: boolean, element: Element | null): Values | null {
+function useValues(active: boolean, element: Element | null): readonly number[] | null {
     const editor = useEditor();
-    const [values, setValues] = useState<Values | null>(null);
+    const [values, setValues] = useState<readonly number[] | null>(null);
     const revision = useDocument((state) => state.revision);
     const last = useRef<PointerEvent | null>(null);
     // biome-ignore lint/correctness/useExhaustiveDependencies: another revision has other values
@@ -69,7 +40,13 @@ function useValues(active: boolean, element: Element | null): Values | null {
             asked.abort();
             asked = new AbortController();
             timer = setTimeout(() => {
-                valuesAt(editor, element, event, asked.signal).then(setValues, () => undefined);
+                pixelAt(
+                    editor,
+                    element,
+                    event,
+                    editor.stores.view.getState().aov,
+                    asked.signal,
+                ).then(setValues, () => undefined);
             }, REST_MS);
         };
         const leave = (): void => {
