@@ -188,7 +188,7 @@ static bool read_one(struct engine_program *program, struct reading *r,
         r->mixed[in->a] = to->mixes;
         r->steep[in->a] = r->steep[in->a] || r->steep[in->b];
         to->prunes = in->sdf->reach && r->depth == 0 && r->bent == 0 && !r->steep[in->a];
-        to->lesser = in->sdf->rule == SDF_ANY && !in->sdf->soft;
+        to->lesser = in->sdf->rule == SDF_ANY && in->sdf->reach && !in->sdf->soft;
         to->rule = (uint8_t)in->sdf->rule;
         to->kernel = (uint8_t)(in->choices & 0xff);
     } else if (in->op == FIELD_LOOP) {
