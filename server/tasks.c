@@ -10,6 +10,7 @@
 #include "protocol/accounts.h"
 #include "protocol/limits.h"
 #include "protocol/memory.h"
+#include "renderer/patient.h"
 
 enum { THREADS = 2, LIGHT_THREAD = 0 };
 
@@ -180,6 +181,12 @@ static void *run(void *data)
     return NULL;
 }
 
+static bool start(pthread_t *out, struct seat *seat)
+{
+    return seat->thread == LIGHT_THREAD ? pthread_create(out, NULL, run, seat) == 0
+                                        : patient_create(out, run, seat);
+}
+
 struct tasks *tasks_create(struct metrics *metrics, struct error *err)
 {
     struct tasks *tasks = memory_alloc(1, sizeof *tasks);
@@ -192,7 +199,7 @@ struct tasks *tasks_create(struct metrics *metrics, struct error *err)
         struct seat *seat = memory_alloc(1, sizeof *seat);
 
         *seat = (struct seat){.tasks = tasks, .thread = tasks->started};
-        if (pthread_create(&tasks->threads[tasks->started], NULL, run, seat) != 0) {
+        if (!start(&tasks->threads[tasks->started], seat)) {
             free(seat);
             error_set(err, ERROR_INTERNAL, "tasks", "a thread cannot be started");
             tasks_destroy(tasks);
