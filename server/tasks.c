@@ -5,14 +5,14 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 #include "clock.h"
 #include "protocol/accounts.h"
 #include "protocol/limits.h"
 #include "protocol/memory.h"
-#include "renderer/patient.h"
 
-enum { THREADS = 2, LIGHT_THREAD = 0 };
+enum { THREADS = 2, LIGHT_THREAD = 0, HEAVY_NICE = 5 };
 
 struct task {
     struct task *next;
@@ -157,6 +157,9 @@ static void *run(void *data)
     const int thread = seat->thread;
 
     free(seat);
+    if (thread != LIGHT_THREAD) { /* Linux has a priority for each thread. */
+        setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + HEAVY_NICE);
+    }
     pthread_mutex_lock(&tasks->lock);
     while (!tasks->stopping) {
         struct task *task = take(tasks, thread);
@@ -181,12 +184,6 @@ static void *run(void *data)
     return NULL;
 }
 
-static bool start(pthread_t *out, struct seat *seat)
-{
-    return seat->thread == LIGHT_THREAD ? pthread_create(out, NULL, run, seat) == 0
-                                        : patient_create(out, run, seat);
-}
-
 struct tasks *tasks_create(struct metrics *metrics, struct error *err)
 {
     struct tasks *tasks = memory_alloc(1, sizeof *tasks);
@@ -199,7 +196,7 @@ struct tasks *tasks_create(struct metrics *metrics, struct error *err)
         struct seat *seat = memory_alloc(1, sizeof *seat);
 
         *seat = (struct seat){.tasks = tasks, .thread = tasks->started};
-        if (!start(&tasks->threads[tasks->started], seat)) {
+        if (pthread_create(&tasks->threads[tasks->started], NULL, run, seat) != 0) {
             free(seat);
             error_set(err, ERROR_INTERNAL, "tasks", "a thread cannot be started");
             tasks_destroy(tasks);

@@ -2,7 +2,7 @@
 /* Work on documents, on threads of its own. The tasks of one scene run one after the other, in the
  * order of arrival. Between scenes, the client whose tasks took the least time is next
  * (protocol/accounts.h). At most one heavy task runs at a time, so a light task never waits for a
- * heavy one of another scene; its thread gives way to threads that draw (renderer/patient.h). */
+ * heavy one of another scene; its thread gives way to threads that draw. */
 #ifndef SERVER_TASKS_H
 #define SERVER_TASKS_H
 

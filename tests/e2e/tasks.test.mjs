@@ -300,6 +300,7 @@ test('with 100 ms round trip what is drawn over a moving picture stands where th
     };
     page = await openScreen(stage, { scene: document, tampered: true, delay: 50 }, { theme: 'dark', width: 1100, height: 700 });
     await settled(page);
+    await page.locator('[data-mark="lights/d"]').waitFor({ state: 'attached' }); // it comes later than the picture
     await page.evaluate((keys) => {
         const canvas = document.querySelector('.view-picture > canvas');
         const copy = document.createElement('canvas');

@@ -70,6 +70,7 @@ async function open(...scripts) {
     const script = { content: scripts.map((one) => `(${one})();`).join('\n') };
     const page = await openScreen(stage, { scene: DOCUMENT, tampered: true, delay: scripts.includes(slowClock) ? 0 : 120, script }, WINDOW);
     await settled(page);
+    await page.locator('[data-mark="lights/lamp"]').waitFor({ state: 'attached' }); // it comes later than the picture
     // So many views that the way of each is known.
     for (let i = 0; i < 6; i += 1) {
         const sent = views(page).length;
