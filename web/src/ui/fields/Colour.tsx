@@ -42,6 +42,10 @@ export default function ColourField(props: FieldProps<readonly number[]>) {
         }
         setShown(null);
     };
+    /* The picker tells the last place of a drag after the drag has ended. */
+    const settleSoon = (): void => {
+        requestAnimationFrame(() => requestAnimationFrame(settle));
+    };
     return (
         <Popover
             label={label}
@@ -63,7 +67,7 @@ export default function ColourField(props: FieldProps<readonly number[]>) {
             }
         >
             {/* biome-ignore lint/a11y/noStaticElementInteractions: hears the end of a drag inside */}
-            <div className="colour-sheet" onPointerUp={settle} onKeyUp={settle}>
+            <div className="colour-sheet" onPointerUp={settleSoon} onKeyUp={settleSoon}>
                 <HexColorPicker color={shown ?? hex} onChange={pick} />
                 <div className="colour-row">
                     <span>{t("field.hex")}</span>
