@@ -53,6 +53,19 @@ static void expect_frame(uint32_t job, uint64_t revision)
     assert_true(peer.packet.frame.newest);
 }
 
+/* How many scenes were shown until the next picture, which is this one. */
+static int shown_before_frame(uint32_t job)
+{
+    int shown = 0;
+
+    for (int kind; (kind = peer_receive()) != TO_FRONT_FRAME;) {
+        assert_int_not_equal(kind, TO_FRONT_COUNT);
+        shown += kind == TO_FRONT_SHOWN;
+    }
+    assert_int_equal(peer.packet.frame.job, job);
+    return shown;
+}
+
 /* Others are drawn while large documents are read. */
 static void large_documents(void **state)
 {
@@ -60,7 +73,6 @@ static void large_documents(void **state)
 
     enum { LARGE = sizeof large / sizeof large[0] };
     char *document = large_document(false);
-    int shown = 0;
 
     (void)state;
     peer_send_scene("t", 1);
@@ -69,12 +81,7 @@ static void large_documents(void **state)
         peer_send_document(large[i], 1, document);
     }
     peer_send_render_of("t", 1, 0, 40, 30, "");
-    for (int kind; (kind = peer_receive()) != TO_FRONT_FRAME;) {
-        assert_int_not_equal(kind, TO_FRONT_COUNT);
-        shown += kind == TO_FRONT_SHOWN;
-    }
-    assert_int_equal(peer.packet.frame.job, 1);
-    assert_true(shown < LARGE);
+    assert_true(shown_before_frame(1) < LARGE);
     for (int i = 0; i < LARGE; i++) {
         peer_send_render_of(large[i], 2, 0, 40, 30, "");
         expect_frame(2, 1);
@@ -93,7 +100,6 @@ static void large_edits(void **state)
 
     enum { LARGE = sizeof large / sizeof large[0] };
     char *document = large_document(true);
-    int shown = 0;
 
     (void)state;
     peer_send_scene("t", 1);
@@ -107,12 +113,7 @@ static void large_edits(void **state)
         peer_send_edit_of(large[i], 2, INSERT);
     }
     peer_send_render_of("t", 1, 0, 40, 30, "");
-    for (int kind; (kind = peer_receive()) != TO_FRONT_FRAME;) {
-        assert_int_not_equal(kind, TO_FRONT_COUNT);
-        shown += kind == TO_FRONT_SHOWN;
-    }
-    assert_int_equal(peer.packet.frame.job, 1);
-    assert_true(shown < LARGE);
+    assert_true(shown_before_frame(1) < LARGE);
     free(document);
 }
 
