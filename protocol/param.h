@@ -65,7 +65,8 @@ struct param {
      * and Z are expressions of numbers, + - * / ^ ( ), sqrt, sin, cos, pi and numbers of the same
      * record: `radius`, `size.x`. The point of a length or an angle of a shape lies on its surface,
      * that of a place at the place. Where it is not finite, there is none. Of lights and volumes it
-     * is relative to their position. */
+     * is relative to their position. `skin` is a point of the surface that the node has or changes,
+     * before the change, and `out` the unit vector out of it there: the editor finds them. */
     const char *handle;
     const char *doc;
 };

@@ -8,15 +8,14 @@
 /* The full width of a line. */
 #define WIDTH SIZE, .main = true, .doc = "Full width of the line, half on each side."
 
-/* Handles: a corner, the sides of a rectangle, and beside the middle of a line that runs there in
+/* Handles: a corner, the sides of a rectangle, and beside a point of a line that runs there in
  * the direction from a to END. */
 #define CORNER(P) P ".x, " P ".y, 0"
 #define SIDES "size.x/2, 0, 0; 0, size.y/2, 0"
 #define WAY(END) "sqrt((" END ".x - a.x)^2 + (" END ".y - a.y)^2)"
 #define HALF(END, X) "thickness/2*(" END "." X " - a." X ")/" WAY(END)
-#define BESIDE(MIDDLE, END)                                                                        \
-    MIDDLE("x") " - " HALF(END, "y") ", " MIDDLE("y") " + " HALF(END, "x") ", 0"
-#define STRAIGHT(X) "(a." X " + b." X ")/2"
+#define BESIDE(SPOT, END) SPOT("x") " - " HALF(END, "y") ", " SPOT("y") " + " HALF(END, "x") ", 0"
+#define STRAIGHT(X) "(a." X " + 3*b." X ")/4"
 #define CURVED(X) "(a." X " + 2*b." X " + c." X ")/4"
 
 static const double corners[] = {-0.5, -0.5, 0.5,  -0.5, 0.5,  -0.1,

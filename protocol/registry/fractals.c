@@ -2,6 +2,8 @@
 /* Registry: fractals, minimal surfaces and landscapes. */
 #include "rows.h"
 
+/* Handle: half of the wall along its normal (1, 1, -1). */
+#define BESIDE "thickness/(2*sqrt(3))"
 #define COUNT PARAM_INT, UNIT_NONE, .step = 1, .main = true
 
 /* clang-format off */
@@ -11,6 +13,7 @@ const struct node_type node_fractals[] = {
         {"period", PARAM_FLOAT, SIZE, .def = {1}, .main = true,
          .handle = "period/2, 0, 0", .doc = "Length after which it repeats."},
         {"thickness", PARAM_FLOAT, SIZE, .def = {0.1}, .main = true,
+         .handle = BESIDE ", period/2 + " BESIDE ", -" BESIDE,
          .doc = "Of the wall where it is thinnest; elsewhere up to twice as much."},
         {"size", PARAM_VEC3, SIZE, .def = {1, 1, 1},
          .handle = BOX_HANDLES, .doc = "Full lengths of the box."})},
@@ -90,7 +93,8 @@ const struct node_type node_fractals[] = {
          .doc = "Such as x = s*cos(t), y = a*t, z = s*sin(t), and the ranges of s and t."},
         {"detail", PARAM_ENUM, .choices = (const char *const[]){"coarse", "fine", "finest", NULL},
          .def = {1}, .doc = "Patches along each parameter: 16, 32 or 64."},
-        {"thickness", PARAM_FLOAT, SIZE, .def = {0.05}, .main = true, .doc = "Of the sheet."},
+        {"thickness", PARAM_FLOAT, SIZE, .def = {0.05}, .main = true, .handle = OUT("thickness/2"),
+         .doc = "Of the sheet."},
         {"a", LETTER, .when = "surface~a", .doc = "The letter a in the surface."},
         {"b", LETTER, .when = "surface~b", .doc = "The letter b."},
         {"c", LETTER, .when = "surface~c", .doc = "The letter c."},

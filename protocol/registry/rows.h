@@ -24,6 +24,8 @@
 /* Handles that many rows share. */
 #define POINT(P) P ".x, " P ".y, " P ".z"
 #define BOX_HANDLES "size.x/2, 0, 0; 0, size.y/2, 0; 0, 0, size.z/2"
+/* Out of the surface, by a length. */
+#define OUT(BY) "skin.x + out.x*" BY ", skin.y + out.y*" BY ", skin.z + out.z*" BY
 /* How far the middle of an edge of this radius lies behind both sides. */
 #define ROUNDED(RADIUS) RADIUS "*(1 - sqrt(1/2))"
 

@@ -9,15 +9,16 @@
 #define CORNER PARAM_VEC3, PLACE
 #define AROUND SIZE, .def = {0.02}, .main = true
 
-/* From the middle of a, b and c along their normal. */
+/* From a place within the corners along the normal of a, b and c; not in the middle of four, where
+ * the gizmo is. */
 #define NORMAL(Y, Z)                                                                               \
     "((b." Y " - a." Y ")*(c." Z " - a." Z ") - (b." Z " - a." Z ")*(c." Y " - a." Y "))"
 #define SQUARES NORMAL("y", "z") "^2 + " NORMAL("z", "x") "^2 + " NORMAL("x", "y") "^2"
-#define OVER(MIDDLE, X, Y, Z) MIDDLE(X) " + thickness*" NORMAL(Y, Z) "/sqrt(" SQUARES ")"
-#define THICK(MIDDLE)                                                                              \
-    OVER(MIDDLE, "x", "y", "z") ", " OVER(MIDDLE, "y", "z", "x") ", " OVER(MIDDLE, "z", "x", "y")
+#define OVER(SPOT, X, Y, Z) SPOT(X) " + thickness*" NORMAL(Y, Z) "/sqrt(" SQUARES ")"
+#define THICK(SPOT)                                                                                \
+    OVER(SPOT, "x", "y", "z") ", " OVER(SPOT, "y", "z", "x") ", " OVER(SPOT, "z", "x", "y")
 #define THIRD(X) "(a." X " + b." X " + c." X ")/3"
-#define HALF(X) "(a." X " + c." X ")/2"
+#define QUARTER(X) "(a." X " + 3*c." X ")/4"
 
 /* clang-format off */
 const struct node_type node_solids[] = {
@@ -104,7 +105,7 @@ const struct node_type node_solids[] = {
         {"d", CORNER, .def = {-0.5, 0.4, 0},
          .handle = POINT("d"), .doc = "The last."},
         {"thickness", PARAM_FLOAT, AROUND,
-         .handle = THICK(HALF), .doc = "Quadrilateral to surface, on either side."})},
+         .handle = THICK(QUARTER), .doc = "Quadrilateral to surface, on either side."})},
      .number = 49, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
      .glsl = "sd_quad", .words = "face facet polygon sheet panel card",
      .source = QUILEZ_DISTANCE ", Quad"},

@@ -2,7 +2,7 @@
 // Hands in the picture: the gizmo and the keys, and what they make of the document on the server.
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
-import { until } from '../support/daemon.mjs';
+import { ask, until } from '../support/daemon.mjs';
 import { documentWhen, field, nodeIn, picture, row, SCENE, settled, useStage } from './stage.mjs';
 
 const stage = useStage();
@@ -179,6 +179,72 @@ describe('handles of parameters', () => {
         assert.ok(Math.hypot(tip.x - size.at.x, tip.y - size.at.y) > 20, `${JSON.stringify([tip, size.at])}`);
         await select('ball');
         await until(async () => (await parts()).some(({ handle, look }) => handle === 'radius' && look === 'dot'), 'a dot');
+    });
+});
+
+describe('handles of every type', () => {
+    const numbers = (param) => param.main && param.handle !== undefined;
+    const SHEET = { x: 's', y: 't', z: '0', s: [-1, 1], t: [-1, 1] };
+    /* On the middle of the gizmo there is none. */
+    const AWAY = { offset: 0.5 };
+    const PARAMS = { plane: AWAY, revolve: AWAY, repeat: { count: [3, 2, -1] }, parametric: { surface: SHEET } };
+    const node = ({ type, children }) => ({
+        id: `the-${type}`,
+        type,
+        visible: false,
+        params: PARAMS[type] ?? {},
+        children: children === 'none' ? [] : [{ id: `below-${type}`, type: 'circle' }],
+    });
+
+    test('each main number that has a place in the registry has it in the picture', async () => {
+        const { 'x-fieldcast': schema } = await ask(stage.daemon, 'GET', '/v1/schema.json');
+        const types = schema.nodes.filter(({ params }) => params.some(numbers));
+        id = await stage.scene({
+            ...SCENE,
+            camera: { position: [1.5, 1.5, 3], target: [0, 0, 0] },
+            root: { id: 'root', type: 'union', children: types.map(node) },
+        });
+        page = await stage.page({ scene: id });
+        await settled(page);
+        await select('root');
+        const wanted = new Map(types.map(({ type, params }) => [`the-${type}`, params.filter(numbers)]));
+        const seen = new Set();
+        for (let i = 0; i < 2 * types.length && seen.size < types.length; i++) {
+            await page.keyboard.press('ArrowDown');
+            const chosen = await page.locator('[data-node][aria-selected="true"]').getAttribute('data-node');
+            for (const { name } of wanted.get(chosen) ?? []) {
+                const drawn = async () => (await parts()).some(({ handle }) => handle?.split('.')[0] === name);
+                await until(drawn, `a handle of ${name} at ${chosen}`);
+            }
+            if (wanted.has(chosen)) {
+                seen.add(chosen);
+            }
+        }
+        assert.equal(seen.size, types.length);
+    });
+
+    test('how far a shape grows is an arrow on its surface, which the pointer takes along', async () => {
+        const shape = { id: 'inner', type: 'sphere', params: { radius: 0.8 } };
+        id = await stage.scene({
+            ...SCENE,
+            root: { id: 'soft', type: 'round', params: { radius: 0.1 }, transform: { scale: 1.5 }, children: [shape] },
+        });
+        page = await stage.page({ scene: id });
+        await settled(page);
+        await select('soft');
+        const arrow = async () => (await parts()).find(({ handle }) => handle === 'radius');
+        await until(async () => (await arrow())?.look === 'arrow', 'an arrow');
+        const { at } = await arrow();
+        const box = await picture(page).boundingBox();
+        await drag({ x: box.x + at.x, y: box.y + at.y }, 40, 0);
+        const grown = await when((d) => nodeIn(d, 'soft').params.radius > 0.2, 'a greater one');
+        const after = (await arrow()).at;
+        assert.ok(Math.hypot(after.x - at.x - 40, after.y - at.y) < 2, JSON.stringify([at, after]));
+        /* The first arrow is 0.9 from the middle, in the node's own space. */
+        const ball = (await parts()).find(isPart('move', null)).at;
+        const wanted = 0.9 * (1 + 40 / (at.x - ball.x)) - 0.8;
+        const { radius } = nodeIn(grown, 'soft').params;
+        assert.ok(Math.abs(radius - wanted) < 0.01, `${radius} is not ${wanted}`);
     });
 });
 

@@ -26,19 +26,26 @@ static const struct {
     int point;
 } apart[] = {
     {"gyroid", "period", 0},     /* in the middle of the wall: its sides have no closed form */
+    {"gyroid", "thickness", 0},  /* beside that, so far along the normal */
     {"gyroid", "size", EVERY},   /* on the box that cuts, which may do so in a hole */
     {"terrain", "size", 1},      /* as high as peaks may be; there may be none in the middle */
     {"implicit", "size", EVERY}, /* on the box that cuts */
     {"implicit", "radius", 0},   /* on the ball that cuts */
 };
 
-/* Lengths that a compact view shows, without a handle. */
+/* Numbers that a compact view shows and that are no counts, without a handle. A type of NULL: of
+ * any that has them. */
 static const struct {
     const char *type, *param;
 } bare[] = {
-    {"gyroid", "thickness"},     /* the sides of the wall have no closed form */
-    {"polygon", "points"},       /* a list: its points are places themselves */
-    {"parametric", "thickness"}, /* expressions say where the surface is */
+    {"polygon", "points"}, /* a list: its points are places themselves */
+    {"julia", "c"},        /* a place in four dimensions */
+    {"implicit", "a"},     /* what a letter does, its equation says */
+    {"morph", "t"},        /* a share of two shapes, which may be in one place */
+    {NULL, "position"},    /* the gizmo moves what has one */
+    {NULL, "direction"},   /* the gizmo turns what has one */
+    {NULL, "intensity"},   /* how bright, not where */
+    {NULL, "density"},     /* how thick, not where */
 };
 
 static bool is_apart(const char *type, const char *param, int point)
@@ -55,16 +62,12 @@ static bool is_apart(const char *type, const char *param, int point)
 static bool is_bare(const char *type, const char *param)
 {
     for (size_t i = 0; i < sizeof bare / sizeof bare[0]; i++) {
-        if (strcmp(bare[i].type, type) == 0 && strcmp(bare[i].param, param) == 0) {
+        if ((!bare[i].type || strcmp(bare[i].type, type) == 0) &&
+            strcmp(bare[i].param, param) == 0) {
             return true;
         }
     }
     return false;
-}
-
-static bool is_shape(const struct node_type *type)
-{
-    return type->group == GROUP_PRIMITIVE || type->group == GROUP_SHAPE;
 }
 
 /* --- values --- */
@@ -75,7 +78,7 @@ static double *numbers(const struct record *record, const char *name)
 }
 
 /* What the words of a row take for granted. */
-static void adjust(const struct record *record)
+static void adjust(struct random *random, const struct record *record)
 {
     const char *type = record->type->name;
 
@@ -92,8 +95,9 @@ static void adjust(const struct record *record)
     } else if (strcmp(type, "revolve") == 0) { /* what is beyond the axis is not drawn */
         *numbers(record, "offset") = fabs(*numbers(record, "offset"));
     } else if (strcmp(type, "repeat") == 0) {
+        static const double copies[] = {-1, 2, 3, 4, 5};
         for (int i = 0; i < 3; i++) {
-            numbers(record, "count")[i] = 3;
+            numbers(record, "count")[i] = copies[random_below(random, 5)];
         }
     }
 }
@@ -121,7 +125,7 @@ static struct record random_record(struct random *random, const struct record_ty
             record.values[i].set = true;
         }
     }
-    adjust(&record);
+    adjust(random, &record);
     return record;
 }
 
@@ -206,7 +210,7 @@ static void check_moves(struct record *record, int index)
 
     for (int k = 0; k < param_components(param->type); k++) {
         direction_of(record, index, count > 1 ? k : 0, k, way);
-        if (!(hypot(hypot(way[0], way[1]), way[2]) > 0.02)) {
+        if (!(hypot(hypot(way[0], way[1]), way[2]) > 0.01)) {
             fail_msg("%s.%s: component %d does not move its point", record->type->name, param->name,
                      k);
         }
@@ -235,16 +239,25 @@ static void handles_move_with_their_values(void **state)
     assert_true(handles > 100 * SETS);
 }
 
-static void main_lengths_and_angles_have_handles(void **state)
+/* Counts and colours are for fields. */
+static bool is_for_hands(const struct param *param)
+{
+    const bool numbers = param->type == PARAM_FLOAT || param->type == PARAM_VEC2 ||
+                         param->type == PARAM_VEC3 || param->type == PARAM_VEC4;
+
+    return param->main && (numbers || param->type == PARAM_POINTS);
+}
+
+static void main_numbers_have_handles(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < node_type_count(); i++) {
-        const struct node_type *type = node_type_at(i);
-        for (const struct param *param = type->record.params; param->name; param++) {
-            const bool wanted = is_shape(type) && param->main &&
-                                (param->unit == UNIT_LENGTH || param->unit == UNIT_ANGLE);
-            if (wanted && (param->handle == NULL) != is_bare(type->record.name, param->name)) {
-                fail_msg("%s.%s: %s", type->record.name, param->name,
+    const struct record_type *type;
+
+    for (size_t i = 0; (type = table_at(i)); i++) {
+        for (const struct param *param = type->params; param->name; param++) {
+            if (is_for_hands(param) &&
+                (param->handle == NULL) != is_bare(type->name, param->name)) {
+                fail_msg("%s.%s: %s", type->name, param->name,
                          param->handle ? "named as one without a handle" : "no handle");
             }
         }
@@ -329,7 +342,53 @@ static void handles_of_shapes_are_on_the_surface(void **state)
     visit_handles(2, is_measured, check_surface);
 }
 
+/* Where the editor looks for the `skin` of a shape: the first length that is no place; -1: none. */
+static int first_length(const struct record *record)
+{
+    const struct param *params = record->type->params;
+    double points[HANDLE_POINTS][3];
+
+    for (int i = 0; params[i].name; i++) {
+        if (params[i].handle && params[i].unit == UNIT_LENGTH &&
+            points_of(&params[i], record, points) == param_components(params[i].type)) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static void check_growth(const struct node_type *type, const struct record *record, int index)
+{
+    const struct param *param = &type->record.params[index];
+    struct record moved = *record;
+    double points[HANDLE_POINTS][3], way[3], d[2];
+
+    if (index != first_length(record) || is_apart(type->record.name, param->name, 0)) {
+        return;
+    }
+    points_of(param, record, points);
+    direction_of(&moved, index, 0, 0, way);
+    for (int i = 0; i < 2; i++) {
+        const double by = i ? 1e-4 : -1e-4;
+        const double p[3] = {points[0][0] + by * way[0], points[0][1] + by * way[1],
+                             points[0][2] + by * way[2]};
+        d[i] = distance(type, record, p);
+    }
+    if (!(d[1] > d[0])) {
+        fail_msg("%s.%s: its point goes inwards", type->record.name, param->name);
+    }
+}
+
+static void first_lengths_grow_outwards(void **state)
+{
+    (void)state;
+    visit_handles(5, is_measured, check_growth);
+}
+
 /* --- modifiers --- */
+
+/* What the skin is of: its radius is HANDLE_SKIN. */
+#define BALL_OF(TYPE) "{'type':'" TYPE "','params':{'radius':0.5}}"
 
 /* What is drawn around the handle, or ends there. */
 static const struct {
@@ -341,7 +400,9 @@ static const struct {
     {"twist", "{'type':'sphere','params':{'radius':0.01},'transform':{'translation':[1,1,0]}}"},
     {"bend", "{'type':'capsule','params':{'a':[0,0,0],'b':[1,0,0],'radius':0.01}}"},
     {"revolve", "{'type':'circle','params':{'radius':0.01}}"},
-    {"extrude", "{'type':'circle','params':{'radius':0.5}}"},
+    {"extrude", BALL_OF("circle")},
+    {"round", BALL_OF("sphere")},
+    {"shell", BALL_OF("sphere")},
 };
 
 static bool is_domain(const struct node_type *type)
@@ -377,14 +438,28 @@ static double beside(const struct field *field, const double p[3], const double 
     return field_distance(field, q);
 }
 
+static bool has_skin(const struct param *param)
+{
+    return strstr(param->handle, "skin") != NULL;
+}
+
+/* Where a wave ends, there is nothing of the children. */
+static bool is_wave(const struct param *param)
+{
+    return strcmp(param->name, "frequency") == 0;
+}
+
 static void check_modifier(const struct node_type *type, const struct record *record, int index)
 {
     const struct param *param = &type->record.params[index];
-    struct field *field = field_around_child(record);
     struct record moved = *record;
     double points[HANDLE_POINTS][3], way[3];
-    const int count = points_of(param, record, points);
 
+    if (has_skin(param) || is_wave(param)) {
+        return;
+    }
+    struct field *field = field_around_child(record);
+    const int count = points_of(param, record, points);
     assert_int_equal(count, param_components(param->type));
     for (int i = 0; i < count; i++) {
         direction_of(&moved, index, i, i, way);
@@ -400,6 +475,35 @@ static void handles_of_modifiers_are_where_children_come(void **state)
 {
     (void)state;
     visit_handles(3, is_domain, check_modifier);
+}
+
+/* An amplitude's point is as far as the surface moves at most. */
+static bool changes_all(const struct node_type *type)
+{
+    return type->kind == KIND_DISTANCE || strcmp(type->record.name, "extrude") == 0;
+}
+
+static void check_skin(const struct node_type *type, const struct record *record, int index)
+{
+    const struct param *param = &type->record.params[index];
+    double points[HANDLE_POINTS][3];
+
+    if (!has_skin(param)) {
+        return;
+    }
+    struct field *field = field_around_child(record);
+    assert_int_equal(points_of(param, record, points), 1);
+    const double d = field_distance(field, points[0]);
+    field_unref(field);
+    if (!(fabs(d) < NEAR)) {
+        fail_msg("%s.%s: %g from the surface", type->record.name, param->name, d);
+    }
+}
+
+static void handles_at_the_skin_are_on_the_surface(void **state)
+{
+    (void)state;
+    visit_handles(6, changes_all, check_skin);
 }
 
 /* --- lights and volumes --- */
@@ -445,9 +549,11 @@ static void the_handle_of_a_spot_is_on_its_cone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(main_lengths_and_angles_have_handles),
+        cmocka_unit_test(main_numbers_have_handles),
         cmocka_unit_test(handles_move_with_their_values),
         cmocka_unit_test(handles_of_shapes_are_on_the_surface),
+        cmocka_unit_test(first_lengths_grow_outwards),
+        cmocka_unit_test(handles_at_the_skin_are_on_the_surface),
         cmocka_unit_test(handles_of_modifiers_are_where_children_come),
         cmocka_unit_test(volumes_have_the_handles_of_shapes),
         cmocka_unit_test(the_handle_of_a_spot_is_on_its_cone),

@@ -42,13 +42,26 @@ static double fail(struct reader *reader)
     return NAN;
 }
 
+/* Of `skin` and `out`; NAN: it is neither. */
+static double around(struct reader *reader, const char *name)
+{
+    const bool skin = strcmp(name, "skin") == 0;
+
+    if ((!skin && strcmp(name, "out") != 0) || !take(reader, '.')) {
+        return NAN;
+    }
+    const char axis = *reader->at++;
+    return axis == 'x' ? (skin ? HANDLE_SKIN : 1) : axis == 'y' || axis == 'z' ? 0 : fail(reader);
+}
+
 /* A number of the record: a vector's with its component, any other without. */
 static double named(struct reader *reader, const char *name)
 {
     const int index = record_type_find(reader->record->type, name);
+    const double known = index < 0 ? around(reader, name) : NAN;
 
     if (index < 0) {
-        return fail(reader);
+        return isnan(known) ? fail(reader) : known;
     }
     const struct param *param = &reader->record->type->params[index];
     const int count = param_components(param->type);

@@ -7,8 +7,12 @@
 
 enum { HANDLE_POINTS = 4 };
 
+/* `skin` is a point of the surface of a ball or disc of this radius, on the x axis, with `out`
+ * along it. */
+#define HANDLE_SKIN 0.5
+
 /* How many points there are; 0: the text cannot be read, has more than HANDLE_POINTS, or names what
- * no number of the record is. */
+ * is neither a number of the record nor one of these. */
 int handle_points(const char *text, const struct record *record, double out[HANDLE_POINTS][3]);
 
 #endif

@@ -11,10 +11,21 @@ import {
     type SceneDocument,
     type SceneNode,
 } from "./document.ts";
+import {
+    evaluatePoint,
+    NO_SKIN,
+    type Numbers,
+    namesOf,
+    namesSkin,
+    namesWith,
+    numberName,
+    pointsIn,
+    type Skin,
+} from "./handleTexts.ts";
 import { type Reading, settingOf } from "./modelParams.ts";
 import type { Operation } from "./operation.ts";
 import { valuesPlace } from "./places.ts";
-import { alongLine, onPlane, type Projection, type Spot } from "./projection.ts";
+import { alongLine, onPlane, type Projection, type Ray, type Spot } from "./projection.ts";
 import {
     components,
     findParam,
@@ -22,11 +33,12 @@ import {
     nodeType,
     type Param,
     type Schema,
-    type Values,
     valueIn,
 } from "./schema.ts";
+import { skinOf } from "./skin.ts";
 import {
     add,
+    cross,
     fromParent,
     into,
     length,
@@ -37,14 +49,12 @@ import {
     type Vector,
     vectorOf,
 } from "./transform.ts";
-import { evaluateNamed, isAngle, printInUnit, snap, tidy, tidyAngle } from "./units.ts";
+import { isAngle, printInUnit, snap, tidy, tidyAngle } from "./units.ts";
 import { clampNumber, numbersOf } from "./values.ts";
 import type { Subject } from "./view.ts";
 
 /* What has handles: its rows and values, and its space. */
-export interface Owner {
-    readonly params: readonly Param[];
-    readonly values: Values;
+export interface Owner extends Numbers {
     readonly toWorld: (point: Vector) => Vector;
     readonly fromWorld: (point: Vector) => Vector;
     /* It joins others: its lengths are of no shape. */
@@ -88,30 +98,11 @@ export interface Handle extends Dragged {
     readonly look: HandleLook;
 }
 
-const LETTERS = "xyzw";
 const ORIGIN: Vector = [0, 0, 0];
 
-/* The numbers of a record by name, with one number of one value replaced. */
-function namesOf({ params, values }: Owner, key = "", value = 0): (name: string) => number {
-    return (name) => {
-        if (name === key) {
-            return value;
-        }
-        const [first, letter] = name.split(".");
-        const param = params.find((row) => row.name === first);
-        const numbers = param ? numbersOf(valueIn(values, param), components(param.type)) : [];
-        return numbers[letter === undefined ? 0 : LETTERS.indexOf(letter)] ?? Number.NaN;
-    };
-}
-
 /* In the world; null where the expressions have no value. */
-function pointOf(
-    owner: Owner,
-    texts: readonly string[],
-    key?: string,
-    value?: number,
-): Vector | null {
-    const point = vectorOf(texts.map((text) => evaluateNamed(text, namesOf(owner, key, value))));
+function pointOf(owner: Owner, texts: readonly string[], key = "", value = 0): Vector | null {
+    const point = evaluatePoint(texts, namesWith(namesOf(owner), key, value));
     return point.every(Number.isFinite) ? owner.toWorld(point) : null;
 }
 
@@ -123,7 +114,8 @@ const ARROW = 20;
 const HEAD_ON = 0.25;
 const ARC_STEPS = 16;
 const TURN = 2 * Math.PI;
-/* Names of lengths that are measured from a middle: their points are dots on the surface. */
+/* Names of lengths that are measured from a middle: their points are dots on the surface. What grows
+ * out of a skin has none. */
 const RADIUS = /^(radi|tube|round)/;
 
 interface Curve {
@@ -176,24 +168,18 @@ function lookOf(owner: Owner, param: Param, component: number | null, curve: Cur
     if (isAngle(param.unit)) {
         return arcOf(curve, param.unit);
     }
-    if (param.unit !== "length" || RADIUS.test(param.name)) {
+    if (param.unit !== "length" || (RADIUS.test(param.name) && !namesSkin(param))) {
         return { kind: "dot" };
     }
     return owner.joins ? bandOf(curve) : arrowOf(curve);
 }
-
-/* The name of a number in expressions: "radius", "size.x". */
-const numberName = (name: string, count: number, component: number | null): string =>
-    count > 1 && component !== null ? `${name}.${LETTERS[component]}` : name;
 
 function handlesOfParam(dragged: Dragged, projection: Projection): Handle[] {
     const { owner, param, name, part } = dragged;
     if (param.type === "points") {
         return cornerHandles(dragged, projection);
     }
-    const points = param.handle
-        .split(";")
-        .map((point) => point.split(",").map((text) => text.trim()));
+    const points = pointsIn(param);
     const count = components(param.type);
     return points.flatMap((texts, i) => {
         const component = points.length === 1 && count > 1 ? part : i;
@@ -229,9 +215,14 @@ function ownerAt(
     const isOperation = nodeType(schema, node.type)?.group === "operation";
     const ball = isOperation ? ballIn(document, node, schema, reading) : null;
     const middle = ball ? fromParent(transformOf(node), ball.center) : ORIGIN;
+    let skin: Skin | null = null;
     return {
         params: nodeParams(schema, document, node),
         values: node.params,
+        skin: () => {
+            skin ??= skinOf(document, schema, node, reading);
+            return skin;
+        },
         toWorld: (point) => outOf(path, add(point, middle)),
         fromWorld: (point) => subtract(into(path, point), middle),
         joins: isOperation,
@@ -258,6 +249,7 @@ function placeOwner(schema: Schema, path: readonly SceneNode[]): Owner | null {
             row.name === PLACE ? { ...row, handle: PLACE_HANDLE } : row,
         ),
         values: node.transform,
+        skin: NO_SKIN,
         toWorld: (point) => outOf(around, point),
         fromWorld: (point) => into(around, point),
         joins: false,
@@ -308,6 +300,7 @@ function resourceValues(
     const owner: Owner = {
         params,
         values: resource.values,
+        skin: NO_SKIN,
         toWorld: (point) => add(point, position),
         fromWorld: (point) => subtract(point, position),
         joins: false,
@@ -359,16 +352,26 @@ export function handleAt(handles: readonly Handle[], { x, y }: Spot, slop: numbe
 
 /* --- dragging --- */
 
-const STEPS = 12;
+const STEPS = 24;
+const HALVINGS = 24;
+/* Rounding: a way that is longer by this part is no longer. */
+const LONGER = 1 + 1e-9;
 const NUDGE = 1e-4;
 const SNAP_LENGTH = 0.1;
 const SNAP_ANGLE = Math.PI / 12;
 
-/* The value whose point is nearest to a ray: Newton's steps along the tangent of its curve. */
+/* How far a ray passes from a point. */
+function missOf({ from, along }: Ray, point: Vector | null): number {
+    return point ? length(cross(subtract(point, from), along)) : Number.NaN;
+}
+
+/* The value whose point is nearest to a ray: Newton's steps along the tangent of its curve, halved
+ * while they lead away from the ray, as behind the end of a curve (1/x). */
 function valueNear(handle: Handle, projection: Projection, spot: Spot): number | null {
     const { owner, texts, param, component, limits } = handle;
     const number = numberName(param.name, components(param.type), component);
     const ray = projection.rayAt(spot);
+    const missAt = (at: number): number => missOf(ray, pointOf(owner, texts, number, at));
     let value = namesOf(owner)(number);
     for (let i = 0; i < STEPS; i++) {
         const here = pointOf(owner, texts, number, value);
@@ -382,7 +385,12 @@ function valueNear(handle: Handle, projection: Projection, spot: Spot): number |
         if (far === null) {
             return null;
         }
-        value = clampNumber(limits, value + far / speed);
+        let step = far / speed;
+        const most = LONGER * missOf(ray, here);
+        for (let k = 0; k < HALVINGS && !(missAt(clampNumber(limits, value + step)) <= most); k++) {
+            step /= 2;
+        }
+        value = clampNumber(limits, value + step);
     }
     return value;
 }

@@ -13,8 +13,21 @@ export function tidy(x: number): number {
     return Object.is(rounded, -0) ? 0 : rounded;
 }
 
+const FUNCTIONS = [
+    "sqrt",
+    "sin",
+    "cos",
+    "tan",
+    "sinh",
+    "cosh",
+    "tanh",
+    "exp",
+    "log",
+    "abs",
+] as const;
+
 /* What names in an expression stand for; NaN: nothing. */
-type Names = (name: string) => number;
+export type Names = (name: string) => number;
 
 /* Recursive descent over one line of arithmetic. */
 class Expression {
@@ -63,13 +76,10 @@ class Expression {
             case "pi":
             case "π":
                 return Math.PI;
-            case "sqrt":
-            case "sin":
-            case "cos":
-            case "tan":
-                return Math[word](this.#atom());
-            default:
-                return this.#names(word);
+            default: {
+                const known = FUNCTIONS.find((name) => name === word);
+                return known ? Math[known](this.#atom()) : this.#names(word);
+            }
         }
     }
 

@@ -55,6 +55,7 @@ export class Hands {
         this.#canvas.dataset.testid = "hands";
         element.append(this.#canvas);
         this.#listen();
+        this.#motion(page.stores.view.getState().motion);
         this.#draw();
     }
 

@@ -4,9 +4,10 @@
 import { Eye } from "lucide-react";
 import { useCallback, useEffect, useRef, useState } from "react";
 import { Grid } from "../../overlay/grid.ts";
-import { Hands } from "../../overlay/hands.ts";
+import type { Hands } from "../../overlay/hands.ts";
 import { Outlines } from "../../overlay/outlines.ts";
 import { attachPointer, type PointerActions } from "../../overlay/pointer.ts";
+import type { Editor } from "../editor.ts";
 import { lazyPart } from "../lazy.tsx";
 import { NodeMenu, type Target } from "../scene/NodeMenu.tsx";
 import { useDocument, useEditor, useLink, useView } from "../state.ts";
@@ -73,6 +74,22 @@ export function View() {
     );
 }
 
+/* They are there a moment after the picture: the first sight of it needs none. */
+function handsIn(editor: Editor, element: HTMLElement) {
+    let hands: Hands | null = null;
+    let ended = false;
+    void import("../../overlay/hands.ts").then((overlay) => {
+        hands = ended ? null : new overlay.Hands(handsPage(editor), element);
+    });
+    return {
+        get: () => hands,
+        end: () => {
+            ended = true;
+            hands?.end();
+        },
+    };
+}
+
 function Picture() {
     const editor = useEditor();
     const place = useRef<HTMLDivElement>(null);
@@ -91,8 +108,8 @@ function Picture() {
         const hide = editor.link.attach(element);
         const grid = new Grid(editor.stores, element);
         const outlines = new Outlines(editor.stores, element);
-        const hands = new Hands(handsPage(editor), element);
-        const actions = pointerActions(editor, element, hands, open, setUnder);
+        const hands = handsIn(editor, element);
+        const actions = pointerActions(editor, element, hands.get, open, setUnder);
         setActs(actions);
         list.current = ({ x, y }) => {
             const box = element.getBoundingClientRect();

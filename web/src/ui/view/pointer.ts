@@ -40,7 +40,7 @@ export interface Under {
 export function pointerActions(
     editor: Editor,
     element: HTMLElement,
-    hands: Hands,
+    hands: () => Hands | null,
     onMenu: OpenMenu,
     onUnder: (under: Under) => void,
 ): PointerActions {
@@ -99,7 +99,7 @@ export function pointerActions(
             await aim(x, y);
             return;
         }
-        if (mode === "replace" && hands.click({ x, y })) {
+        if (mode === "replace" && hands()?.click({ x, y })) {
             return;
         }
         const node = await nodeUnder(x, y);
@@ -128,13 +128,13 @@ export function pointerActions(
         });
     };
     return {
-        grab: (press) => hands.grab(press) ?? holdBox(stores, element, press, chooseAll),
+        grab: (press) => hands()?.grab(press) ?? holdBox(stores, element, press, chooseAll),
         camera: () => stores.camera.getState().camera,
         moveCamera: (camera) => moveCamera(editor, () => camera),
         click: (x, y, mode, all) => void (all ? list(x, y) : click(x, y, mode)),
         menu: (x, y) => void menu(x, y),
         frame: async (x, y) => {
-            if (hands.double({ x, y })) {
+            if (hands()?.double({ x, y })) {
                 return;
             }
             const node = (await nodeUnder(x, y)) ?? null;
