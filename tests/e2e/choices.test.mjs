@@ -112,3 +112,25 @@ test('keys like those of another tool, and chosen ones, also after a reload', as
     await page.keyboard.press('h');
     await page.locator('[data-node=ball][data-hidden]').waitFor();
 });
+
+test('a key of one\'s own stays in another keymap, and the sheet says whose it was', async () => {
+    const page = await stage.page({ scene: await stage.scene() });
+    const dialog = page.getByRole('dialog');
+    await settled(page);
+    await row(page, 'ball').click();
+    await page.keyboard.press('?');
+    await dialog.getByRole('switch', { name: 'Change keys' }).click();
+    const hide = dialog.getByRole('button', { name: /^Hide or show:/ });
+    await hide.click();
+    await page.keyboard.press('e');
+    await hide.getByText('E', { exact: true }).waitFor();
+    assert.equal(await dialog.getByText('is your own key for').count(), 0);
+    await dialog.getByRole('combobox', { name: 'Keys like those of' }).click();
+    await page.getByRole('option', { name: 'three.js, Unity' }).click();
+    await dialog.getByText(/^E is your own key for “Hide or show”, not “Rotate/).waitFor();
+    await page.keyboard.press('Escape');
+    await dialog.waitFor({ state: 'detached' });
+    await row(page, 'ball').click();
+    await page.keyboard.press('e');
+    await page.locator('[data-node=ball][data-hidden]').waitFor();
+});

@@ -22,6 +22,7 @@ import {
     keysOf,
     overlap,
     rivalOf,
+    takenKeys,
 } from "../src/model/keymap.ts";
 import type { KeyPress } from "../src/model/keys.ts";
 import { fits } from "../src/model/moves.ts";
@@ -98,11 +99,32 @@ test.each(KEYMAPS)("no key of %s means two commands in one place", (keymap) => {
     for (const a of COMMANDS) {
         for (const b of COMMANDS) {
             if (a !== b && overlap(a.when, b.when)) {
-                const keys = keysOf(b, choices);
-                expect(keysOf(a, choices).filter((key) => keys.includes(key))).toEqual([]);
+                const keys = keysOf(b, COMMANDS, choices);
+                expect(keysOf(a, COMMANDS, choices).filter((key) => keys.includes(key))).toEqual(
+                    [],
+                );
             }
         }
     }
+});
+
+test("a key of one's own stays when another keymap gives it to another command", () => {
+    const keys = { "node.hide": "E", "camera.frame": "T" };
+    for (const keymap of KEYMAPS) {
+        const choices = { ...CHOICES, keymap, keys };
+        for (const [id, key] of Object.entries(keys)) {
+            const users = COMMANDS.filter((one) => keysOf(one, COMMANDS, choices).includes(key));
+            expect(users.map((one) => one.id)).toEqual([id]);
+        }
+    }
+    const unity: KeyChoices = { ...CHOICES, keymap: "unity", keys };
+    const turn = commandById("hands.tool.turn") as Command;
+    expect(keysOf(turn, COMMANDS, unity)).toEqual(["2"]);
+    expect(takenKeys(COMMANDS, { ...unity, keymap: "fieldcast" })).toEqual([]);
+    expect(takenKeys(COMMANDS, unity).map(({ key, by, from }) => [key, by.id, from.id])).toEqual([
+        ["T", "camera.frame", "hands.turn"],
+        ["E", "node.hide", "hands.tool.turn"],
+    ]);
 });
 
 test("keys are those of another tool, or chosen ones, which are kept", () => {

@@ -30,7 +30,8 @@ export function commandForKey(
     const name = nameOfPress(press);
     const command = COMMANDS.find(
         (one) =>
-            (one.when === "anywhere" || one.when === where) && keysOf(one, choices).includes(name),
+            (one.when === "anywhere" || one.when === where) &&
+            keysOf(one, COMMANDS, choices).includes(name),
     );
     if (!command || !allows(command, typing)) {
         return null;

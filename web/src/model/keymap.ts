@@ -22,17 +22,47 @@ const UNITY: Readonly<Record<string, readonly string[]>> = {
     "node.wrap": ["Shift+W"],
 };
 
-export function keysOf({ id, keys }: Command, choices: KeyChoices): readonly string[] {
-    const own = choices.keys[id];
-    if (own !== undefined) {
-        return own === "" ? [] : [own];
-    }
-    return (choices.keymap === "unity" ? UNITY[id] : undefined) ?? keys;
-}
-
 /* Do two contexts overlap: could one key press mean both? */
 export function overlap(a: Context, b: Context): boolean {
     return a === b || a === "anywhere" || b === "anywhere";
+}
+
+/* A user's own key, which another command had. */
+export interface Taken {
+    readonly key: string;
+    readonly by: Command;
+    readonly from: Command;
+}
+
+/* What a command has by its row or the keymap, and what of it is another's own key. */
+function givenKeys(command: Command, all: readonly Command[], { keymap, keys }: KeyChoices) {
+    const given = (keymap === "unity" ? UNITY[command.id] : undefined) ?? command.keys;
+    const taken = all.flatMap((by): Taken[] => {
+        const key = keys[by.id] ?? "";
+        const takes = by.id !== command.id && given.includes(key) && overlap(by.when, command.when);
+        return takes ? [{ key, by, from: command }] : [];
+    });
+    return { given, taken };
+}
+
+/* Own keys come before those of any keymap, so that a press means one command whichever is chosen. */
+export function keysOf(
+    command: Command,
+    all: readonly Command[],
+    choices: KeyChoices,
+): readonly string[] {
+    const own = choices.keys[command.id];
+    if (own !== undefined) {
+        return own === "" ? [] : [own];
+    }
+    const { given, taken } = givenKeys(command, all, choices);
+    return given.filter((key) => !taken.some((one) => one.key === key));
+}
+
+export function takenKeys(all: readonly Command[], choices: KeyChoices): readonly Taken[] {
+    return all
+        .filter(({ id }) => choices.keys[id] === undefined)
+        .flatMap((command) => givenKeys(command, all, choices).taken);
 }
 
 /* Keys of the browser, of what has the focus and of what floats. */
@@ -53,7 +83,7 @@ export function rivalOf(
             (other) =>
                 other.id !== command.id &&
                 overlap(other.when, command.when) &&
-                keysOf(other, choices).includes(key),
+                keysOf(other, all, choices).includes(key),
         ) ?? null
     );
 }

@@ -2,7 +2,7 @@
 /* Keys of the page: finds the command for a press where the focus is, and F6 between regions. */
 import { useEffect } from "react";
 import { commandById, commandForKey, runCommand, type Typing } from "../../model/commandLookup.ts";
-import type { Context } from "../../model/commands.ts";
+import { COMMANDS, type Context } from "../../model/commands.ts";
 import { keysOf } from "../../model/keymap.ts";
 import { addNotice } from "../../model/stores.ts";
 import { text } from "../../model/texts.ts";
@@ -96,7 +96,7 @@ const mac = /Mac|iPhone|iPad/.test(navigator.platform);
 export function useKeyText(id: string): string | undefined {
     const command = commandById(id);
     return useView(({ preferences }) =>
-        command ? keyText(keysOf(command, preferences)[0]) : undefined,
+        command ? keyText(keysOf(command, COMMANDS, preferences)[0]) : undefined,
     );
 }
 

@@ -4,6 +4,7 @@ import { Bookmark, Box, ChevronRight, Info, Layers2 } from "lucide-react";
 import { type ReactNode, useCallback, useEffect, useState } from "react";
 import type { SceneEntry } from "../../link/rest.ts";
 import { runCommand, searchAbsent, searchCommands } from "../../model/commandLookup.ts";
+import { COMMANDS } from "../../model/commands.ts";
 import { nodeLabel, type SceneDocument, typesOf } from "../../model/document.ts";
 import { keysOf } from "../../model/keymap.ts";
 import type { EntryRow } from "../../model/libraryEntries.ts";
@@ -43,7 +44,7 @@ function commandEntries(editor: Editor, query: string): Entry[] {
     const found = searchCommands(query).map((command) => ({
         id: `command-${command.id}`,
         title: command.title,
-        keys: keyText(keysOf(command, preferences)[0]),
+        keys: keyText(keysOf(command, COMMANDS, preferences)[0]),
         icon: <ChevronRight size={15} aria-hidden="true" />,
         whyNot: command.whyNot(editor),
         run: () => {

@@ -28,7 +28,8 @@ function whyNotKey({ view }: Stores, command: Command, key: string): string | nu
 export function KeyGroup({ group, changes }: { group: Command["group"]; changes: boolean }) {
     const choices = useView(({ preferences }) => preferences);
     const rows = COMMANDS.filter(
-        (command) => command.group === group && (changes || keysOf(command, choices).length > 0),
+        (command) =>
+            command.group === group && (changes || keysOf(command, COMMANDS, choices).length > 0),
     );
     return (
         rows.length > 0 && (
@@ -42,7 +43,7 @@ export function KeyGroup({ group, changes }: { group: Command["group"]; changes:
                                 {changes ? (
                                     <KeyButton command={command} />
                                 ) : (
-                                    <KeyCaps keys={keysOf(command, choices)} />
+                                    <KeyCaps keys={keysOf(command, COMMANDS, choices)} />
                                 )}
                             </dd>
                         </div>
@@ -61,6 +62,7 @@ function KeyButton({ command }: { command: Command }) {
     const { stores } = useEditor();
     const keys = keysOf(
         command,
+        COMMANDS,
         useView(({ preferences }) => preferences),
     );
     const [waits, setWaits] = useState(false);

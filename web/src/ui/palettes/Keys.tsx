@@ -2,7 +2,7 @@
 /* The sheet of keys, made from the table of commands, with the gestures beside them. */
 import { useRef, useState } from "react";
 import { COMMANDS } from "../../model/commands.ts";
-import type { Keymap } from "../../model/keymap.ts";
+import { type Keymap, takenKeys } from "../../model/keymap.ts";
 import { setPreferences } from "../../model/stores.ts";
 import { FlagField } from "../fields/Flag.tsx";
 import { keyText } from "../layout/keys.ts";
@@ -117,7 +117,8 @@ interface ChoicesProps {
 
 function Choices({ changes, onChanges }: ChoicesProps) {
     const { view } = useEditor().stores;
-    const { pointing, singleKeys, keymap, keys } = useView(({ preferences }) => preferences);
+    const choices = useView(({ preferences }) => preferences);
+    const { pointing, singleKeys, keymap, keys } = choices;
     const switches = [
         ["singleKeys", singleKeys, (on: boolean) => setPreferences(view, { singleKeys: on })],
         [
@@ -151,6 +152,14 @@ function Choices({ changes, onChanges }: ChoicesProps) {
                     </div>
                 ))}
             </dl>
+            <div role="status">
+                {takenKeys(COMMANDS, choices).map(({ key, by, from }) => (
+                    <p key={from.id}>
+                        <kbd>{keyText(key)}</kbd>
+                        {` ${KEY_TEXTS.own} “${by.title}”, ${KEY_TEXTS.ownNot} “${from.title}”`}
+                    </p>
+                ))}
+            </div>
             {Object.keys(keys).length > 0 && (
                 <Button onClick={() => setPreferences(view, { keys: {} })}>
                     {KEY_TEXTS.reset}

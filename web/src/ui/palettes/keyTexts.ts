@@ -21,6 +21,8 @@ export const KEY_TEXTS = {
     keymap: "Keys like those of",
     fieldcast: "fieldcast, Blender",
     unity: "three.js, Unity",
+    own: "is your own key for",
+    ownNot: "not",
     changes: "Change keys",
     reset: "All keys as they were",
     press: "Press a key",
