@@ -620,6 +620,16 @@ describe('adding', () => {
             ['mug', 'torus-1'],
         );
         assert.equal(nodeIn(beside, 'torus-1').name, 'Torus');
+        await row(page, 'outer').click();
+        await add('donut');
+        const ways = foot.getByRole('group', { name: 'as:' });
+        const edge = async () => (({ x, width }) => x + width)(await ways.boundingBox());
+        const before = await edge();
+        await foot.getByRole('button', { name: 'smooth cut' }).click();
+        const words = foot.getByText('Cuts outer, in a new smooth difference.');
+        assert.equal(await edge(), before, 'the ways stay where they are');
+        assert.ok(await words.evaluate((one) => one.scrollWidth <= one.clientWidth), 'words that can be read');
+        await page.keyboard.press('Escape');
         await row(page, 'mug').click();
         await add('donut');
         await foot.getByRole('button', { name: 'cut', exact: true }).click();

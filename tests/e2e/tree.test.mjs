@@ -205,7 +205,7 @@ describe('materials and lights', () => {
         await open();
         await row(page, 'ball').click();
         await page.getByRole('button', { name: 'New material' }).click();
-        await page.getByRole('button', { name: 'Plain, to be made' }).click();
+        await page.getByRole('button', { name: 'Plain material' }).click();
         await when((d) => nodeIn(d, 'ball').material === 'material-1', 'the new material');
         await page.locator('[data-resource=material-1] .resource-pick').click();
         const name = page.getByTestId('inspector').getByLabel('Name', { exact: true });
