@@ -455,14 +455,16 @@ test("a new light stands beside what it is for and lights it", () => {
     const head: Box = { low: [-0.5, 0.8, -0.5], high: [0.5, 1.8, 0.5] };
     const post: Box = { low: [-0.5, 0.8, -0.5], high: [0.5, 30.8, 0.5] };
     for (const lit of [head, post]) {
-        const values = newLightValues(SCHEMA, "point", lit);
+        const values = newLightValues(SCHEMA, "point", lit, false);
         const [x = 0, y = 0, z = 0] = values.position as number[];
         const height = lit.high[1] - lit.low[1];
         const away = Math.hypot(x, y - lit.low[1] - height / 2, z);
         expect(away).toBeGreaterThan(Math.max(2, height));
         expect(away).toBeLessThan(Math.max(4, 2 * height));
         expect(Number(values.intensity) / (Math.PI * away ** 2)).toBeCloseTo(1, 1);
-        expect(newLightValues(SCHEMA, "directional", lit)).toEqual({});
+        const beside = newLightValues(SCHEMA, "point", lit, true);
+        expect(Number(beside.intensity) / Number(values.intensity)).toBeCloseTo(1 / 3, 1);
+        expect(newLightValues(SCHEMA, "directional", lit, true)).toEqual({});
     }
 });
 

@@ -14,12 +14,19 @@ const FROM: Vector = normalize([2, 4, 3]);
 /* Distance in radii of what is lit. */
 const AWAY = 3;
 const LEAST_AWAY = 3;
+/* Where another light shines already, so that both together do not burn out what is bright. */
+const BESIDE = 1 / 3;
 /* A white matt surface is as bright as the colour where pi of it arrives (see the reference). */
 const BRIGHT = Math.PI;
 const CONE = Math.PI / 6;
 
 /* What a type of light starts with; only what it has a row for. */
-export function newLightValues(schema: Schema, type: string, lit: Box): JsonObject {
+export function newLightValues(
+    schema: Schema,
+    type: string,
+    lit: Box,
+    others: boolean,
+): JsonObject {
     const params = typesOf(schema, "lights").find((row) => row.type === type)?.params ?? [];
     const ball = ballWithin(lit);
     const away = scale(FROM, Math.max(LEAST_AWAY, AWAY * ball.radius));
@@ -30,7 +37,7 @@ export function newLightValues(schema: Schema, type: string, lit: Box): JsonObje
         position: add(ball.center, away).map((x) => Number(x.toPrecision(3))),
         direction: scale(FROM, -1).map((x) => Number(x.toPrecision(3))),
         angle: tidyAngle(CONE),
-        intensity: tidy(Math.round(BRIGHT * length(away) ** 2)),
+        intensity: tidy(Math.round(BRIGHT * (others ? BESIDE : 1) * length(away) ** 2)),
     };
     const known = ([name]: [string, unknown]): boolean => findParam(params, name) !== null;
     return Object.fromEntries(Object.entries(values).filter(known));
@@ -43,7 +50,7 @@ export function newLight(
     lit: Box,
 ): ResourceEdit {
     const name = freeName(document, "lights", type);
-    const value = { type, ...newLightValues(schema, type, lit) };
+    const value = { type, ...newLightValues(schema, type, lit, document.lights.length > 0) };
     const ops = [insertResource("lights", name, value, null)];
     return { ops, label: `add ${name}`, select: [], name };
 }
