@@ -15,6 +15,7 @@ import { ABSENT, COMMANDS, type Command, type Context } from "../src/model/comma
 import { isApart } from "../src/model/document.ts";
 import { printDocument, readDocument } from "../src/model/documentJson.ts";
 import { moveNodes, wrap } from "../src/model/edits.ts";
+import { groundIn, seatOf } from "../src/model/fitting.ts";
 import {
     isTaken,
     KEYMAPS,
@@ -360,6 +361,31 @@ test("nothing is cut that was not to be cut", () => {
     expect(what(["mug"], "cut")).toEqual({ words: "Cuts mug.", way: "cut" });
     expect(what(["mug"], "union")).toEqual({ words: "Beside mug.", way: "union" });
     expect(what([], "union")).toEqual({ words: "Into root.", way: null });
+});
+
+test("a tool that is added leaves something of what it cuts, open at the top", () => {
+    const seat = seatOf(MUG, SCHEMA, { type: "sphere" }, ["outer"], "cut");
+    expect(seat).toMatchObject({ of: ["outer"], cuts: true });
+    const wide = { low: [1, -1, -1], high: [3, 3, 1] } as const;
+    const ground = seat && groundIn(MUG, seat, wide);
+    expect(ground).toEqual({ at: [2, 1.8, 0], normal: [0, 1, 0], size: 1.6 });
+    const edit = addNode(MUG, SCHEMA, { type: "sphere" }, ["outer"], "cut", ground);
+    expect(edit.ops.at(-1)).toMatchObject({
+        value: { transform: { translation: [2, 1.8, 0], scale: 1.6 } },
+    });
+    expect(seatOf(MUG, SCHEMA, { type: "sphere" }, ["inner"], "cut")?.of).toEqual(["inner"]);
+    expect(seatOf(MUG, SCHEMA, { type: "sphere" }, ["mug"], "cut")?.of).toEqual(["outer"]);
+    expect(seatOf(MUG, SCHEMA, { type: "sphere" }, ["outer"], "union")).toBeNull();
+    expect(seatOf(MUG, SCHEMA, { type: "union" }, ["outer"], "cut")).toBeNull();
+});
+
+test("a plane that is added lies under all that is there", () => {
+    const seat = seatOf(MUG, SCHEMA, { type: "plane" }, [], "union");
+    expect(seat).toMatchObject({ of: [], cuts: false });
+    const box = { low: [-3, -0.5, -1], high: [1, 1, 1] } as const;
+    expect(seat && groundIn(MUG, seat, box)).toEqual({ at: [0, -0.5, 0], normal: [0, 1, 0] });
+    const empty = readDocument({ root: { id: "root", type: "union" } });
+    expect(seatOf(empty, SCHEMA, { type: "plane" }, [], "union")).toBeNull();
 });
 
 test("a scene that is one difference says that an addition cuts", () => {

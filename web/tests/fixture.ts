@@ -42,6 +42,7 @@ export const SCHEMA = readSchema({
             node("sphere", "primitive", [float("radius", { ...length, above_min: true })], "ball"),
             node("box", "primitive", [vec3("size", { default: [1, 1, 1], ...length })]),
             node("torus", "primitive", [float("radius", length), float("tube", length)], "donut"),
+            node("plane", "primitive", [vec3("normal", { default: [0, 1, 0], direction: true })]),
             node("union", "operation", []),
             node("difference", "operation", []),
             node("smooth_union", "operation", [float("k", { default: 0.1 })]),

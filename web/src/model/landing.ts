@@ -11,6 +11,8 @@ import { tidy, tidyAngle } from "./units.ts";
 export interface Ground {
     readonly at: Vector;
     readonly normal: Vector;
+    /* Scale of what is to stand there; absent: its own. */
+    readonly size?: number;
 }
 
 /* The nodes that it is combined with, as a selection: what is selected where it is pointed at, else
@@ -38,7 +40,7 @@ export function landingBeside(
 export function landingTransform(
     document: SceneDocument,
     parent: string,
-    { at, normal }: Ground,
+    { at, normal, size }: Ground,
     own: JsonObject = {},
 ): JsonObject {
     const turned = vectorOf(listOf(own.rotation).map(Number));
@@ -48,5 +50,6 @@ export function landingTransform(
         ...rest,
         translation: translation.map(tidy),
         ...(rotation.some((angle) => angle !== 0) ? { rotation: rotation.map(tidyAngle) } : {}),
+        ...(size === undefined ? {} : { scale: size }),
     };
 }

@@ -39,7 +39,7 @@ export function remember({ stores }: Editor, type: string): void {
 }
 
 /* Sends an edit that adds something, and remembers what. */
-function performAdding(
+export function performAdding(
     editor: Editor,
     { type }: Addition,
     build: (document: SceneDocument, schema: Schema) => Edit,

@@ -10,13 +10,14 @@ import { isContainer, WAY_NAMES } from "../../model/placing.ts";
 import { nodeType } from "../../model/schema.ts";
 import { setPreferences } from "../../model/stores.ts";
 import { carryOffer } from "../drop/carry.ts";
-import { addInput, addNode } from "../insertions.ts";
+import { addInput } from "../insertions.ts";
 import { take } from "../library/actions.ts";
 import { EntryPicture } from "../library/EntryPicture.tsx";
 import { useEntries } from "../library/entries.ts";
 import { TypeIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
+import { addChosen } from "./adding.ts";
 import {
     groupTitle,
     inputsOf,
@@ -100,7 +101,7 @@ export function Add() {
                 if (offer.entry) {
                     take(editor, offer.entry, { into });
                 } else if (into === null) {
-                    addNode(editor, offer);
+                    addChosen(editor, offer);
                 } else {
                     addInput(editor, offer, into);
                 }

@@ -13,7 +13,7 @@ import { nodeType, outputsShown, type Schema } from "../../model/schema.ts";
 import { search } from "../../model/search.ts";
 import { addNotice } from "../../model/stores.ts";
 import type { Editor } from "../editor.ts";
-import { addNode, addTyped, selectNode } from "../insertions.ts";
+import { addTyped, selectNode } from "../insertions.ts";
 import { keyText } from "../layout/keys.ts";
 import { take } from "../library/actions.ts";
 import { useEntries } from "../library/entries.ts";
@@ -23,6 +23,7 @@ import { ResourceIcon, TypeIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { Glyph } from "../widgets/Glyph.tsx";
+import { addChosen } from "./adding.ts";
 import { libraryOffers, offersOf, searchOffers } from "./additions.ts";
 import { type Face, type Group, Palette } from "./Palette.tsx";
 
@@ -92,7 +93,7 @@ function offerEntries(
                           note: offer.named === undefined ? undefined : typeTitle(offer.type),
                           icon: <Glyph type={offer.type} group={offer.group} />,
                       }),
-                run: () => (offer.entry ? take(editor, offer.entry) : addNode(editor, offer)),
+                run: () => (offer.entry ? take(editor, offer.entry) : addChosen(editor, offer)),
             }),
         );
 }

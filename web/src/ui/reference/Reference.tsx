@@ -4,8 +4,8 @@ import { Plus } from "lucide-react";
 import { type RefObject, useEffect, useMemo, useRef, useState } from "react";
 import { nodeType } from "../../model/schema.ts";
 import { search } from "../../model/search.ts";
-import { addNode } from "../insertions.ts";
 import { paramTitle } from "../names.ts";
+import { addChosen } from "../palettes/adding.ts";
 import { TypePicture } from "../palettes/TypePicture.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
@@ -122,7 +122,7 @@ function Page({ topic }: { topic: Topic }) {
     const { title, doc, exactness, params, source, words, node } = topic;
     const add = (): void => {
         editor.stores.view.setState({ popup: null });
-        addNode(editor, { type: topic.key });
+        addChosen(editor, { type: topic.key });
     };
     return (
         // biome-ignore lint/a11y/noNoninteractiveTabindex: it scrolls, so keys must reach it
