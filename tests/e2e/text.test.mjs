@@ -260,4 +260,15 @@ test('on a phone it is a tab of the sheet, and in the menu of the scene', async 
     await page.getByRole('tab', { name: 'Nodes' }).click();
     await page.getByRole('tab', { name: 'Text' }).click();
     await lineWith('"format"').waitFor();
+    /* What does not fit into a line goes on further in than it began. */
+    const starts = await lineWith('"camera"').evaluate((line) => {
+        const range = document.createRange();
+        range.selectNodeContents(line);
+        const rows = new Map();
+        for (const { left, top, width } of range.getClientRects()) {
+            rows.set(top, Math.min(left + (width > 0 ? 0 : Infinity), rows.get(top) ?? Infinity));
+        }
+        return [...rows.keys()].sort((a, b) => a - b).map((top) => rows.get(top));
+    });
+    assert.ok(starts.length > 1 && starts[1] > starts[0] + 24, `${starts}`);
 });

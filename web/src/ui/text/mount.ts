@@ -26,6 +26,7 @@ import {
     highlightSpecialChars,
     keymap,
     lineNumbers,
+    ViewPlugin,
 } from "@codemirror/view";
 import type { Span } from "../../model/jsonText.ts";
 import { changesBetween } from "../code/change.ts";
@@ -89,6 +90,33 @@ const marks = StateField.define<DecorationSet>({
     provide: (field) => EditorView.decorations.from(field),
 });
 
+/* Of a line that is wrapped what follows stands below its text, a step further in. */
+function hangingIn({ state, visibleRanges }: EditorView): DecorationSet {
+    const found = [];
+    for (const { from, to } of visibleRanges) {
+        for (let at = from; at <= to; ) {
+            const line = state.doc.lineAt(at);
+            const indent = line.text.search(/\S|$/) + INDENT.length;
+            const style = `text-indent: -${indent}ch; padding-inline-start: calc(${indent}ch + 6px)`;
+            found.push(Decoration.line({ attributes: { style } }).range(line.from));
+            at = line.to + 1;
+        }
+    }
+    return Decoration.set(found, true);
+}
+
+const hanging = ViewPlugin.define(
+    (view) => ({
+        decorations: hangingIn(view),
+        update(update) {
+            if (update.docChanged || update.viewportChanged) {
+                this.decorations = hangingIn(update.view);
+            }
+        },
+    }),
+    { decorations: (plugin) => plugin.decorations },
+);
+
 function extensionsOf(label: string, events: TextEvents) {
     return [
         lineNumbers(),
@@ -106,7 +134,7 @@ function extensionsOf(label: string, events: TextEvents) {
         syntaxHighlighting(sceneColours),
         marks,
         EditorView.contentAttributes.of({ "aria-label": label }),
-        window.matchMedia(NARROW).matches ? EditorView.lineWrapping : [],
+        window.matchMedia(NARROW).matches ? [EditorView.lineWrapping, hanging] : [],
         keymap.of([
             {
                 key: "Mod-Enter",
