@@ -2,7 +2,7 @@
 /* The graph: where its cards stand, what is kept while values change, and what hands make of it. */
 import { expect, test } from "vitest";
 import { everyNode, type SceneDocument } from "../src/model/document.ts";
-import { CARD, type Derived, deriveGraph, neighbour } from "../src/model/graph.ts";
+import { CARD, type Derived, deriveGraph, neighbour, roomForPicture } from "../src/model/graph.ts";
 import { layoutTree } from "../src/model/layout.ts";
 import { connect, insertBetween } from "../src/model/moves.ts";
 import type { Operation } from "../src/model/operation.ts";
@@ -135,6 +135,17 @@ test("a graph that was derived step by step is the one that is derived at once",
         derived = deriveGraph(SCHEMA, document, collapsed, derived);
         expect(derived.graph).toEqual(deriveGraph(SCHEMA, document, collapsed).graph);
     }
+});
+
+test("a card with many inputs and no parameters has room for a large picture", () => {
+    const { graph } = deriveGraph(SCHEMA, scene(), NONE);
+    const card = graph.cards.get("root");
+    const high = (height: number) => card && roomForPicture({ ...card, height });
+    expect(high(CARD.head + 2 * CARD.pad + 2 * CARD.picture)).toBe(192);
+    expect(high(1000)).toBe(252);
+    expect(high(CARD.head + 2 * CARD.pad + CARD.picture)).toBeNull();
+    const head = graph.cards.get("head");
+    expect(head && roomForPicture({ ...head, height: 1000 })).toBeNull();
 });
 
 test("a folded card hides what is below it, and says how much", () => {

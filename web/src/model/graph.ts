@@ -81,6 +81,16 @@ export function cardParams(schema: Schema, document: SceneDocument, node: SceneN
     return (main.length > 0 ? main : all).slice(0, MOST);
 }
 
+/* The shape of pictures of nodes. */
+const ASPECT = 3 / 2;
+
+/* How wide its picture can be where a card has no parameters and inputs make it high. */
+export function roomForPicture({ beside, below, height }: Card): number | null {
+    const room = height - CARD.head - 2 * CARD.pad;
+    const full = beside.length + below.length > 0 || room < 2 * CARD.picture;
+    return full ? null : Math.min(ASPECT * room, CARD.width - 2 * CARD.pad - 4);
+}
+
 /* The middle of an input, from the top of its card. */
 export function inputY(index: number): number {
     return CARD.head + CARD.pad + (index + 0.5) * CARD.input;

@@ -6,7 +6,7 @@ import { ChevronsLeft, ChevronsRight, Eye, EyeOff, Focus } from "lucide-react";
 import { memo, type ReactNode, useEffect, useRef, useState } from "react";
 import { isShown, isVisible, nodeLabel, parentOf } from "../../model/document.ts";
 import { setVisible } from "../../model/edits.ts";
-import { type Card, inputY, neighbour } from "../../model/graph.ts";
+import { type Card, inputY, neighbour, roomForPicture } from "../../model/graph.ts";
 import { nodeType } from "../../model/schema.ts";
 import { select } from "../../model/view.ts";
 import { Form } from "../form.tsx";
@@ -69,7 +69,7 @@ const CardBody = memo(function CardBody({ card }: { card: Card }) {
                 {far === 0 && <CardButtons card={card} name={name} />}
             </header>
             <div className="graph-card-body">
-                <Picture id={id}>
+                <Picture id={id} width={far === 0 ? roomForPicture(card) : null}>
                     <TypePicture type={type} group={group} size={34} />
                 </Picture>
                 {far === 0 && <Values card={card} name={name} />}
@@ -79,9 +79,25 @@ const CardBody = memo(function CardBody({ card }: { card: Card }) {
     );
 });
 
-/* The result so far; larger while the pointer is on it. */
-function Picture({ id, children }: { id: string; children: ReactNode }) {
+interface PictureProps {
+    id: string;
+    /* Null: of a card that has no room for a large one. */
+    width: number | null;
+    children: ReactNode;
+}
+
+/* The result so far; larger while the pointer is on it, or where nothing else is on the card. */
+function Picture({ id, width, children }: PictureProps) {
     const [large, setLarge] = useState(false);
+    if (width !== null) {
+        return (
+            <span className="graph-card-picture" style={{ inlineSize: width, blockSize: "auto" }}>
+                <Thumbnail id={id} large className="graph-card-whole">
+                    {children}
+                </Thumbnail>
+            </span>
+        );
+    }
     return (
         <span
             className="graph-card-picture"
