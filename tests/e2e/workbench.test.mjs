@@ -63,6 +63,7 @@ test('what is wrong stands under its letter, and is mended', async () => {
     await state('failed');
     await workbench().getByText(/^expected "\)"/).waitFor();
     await workbench().locator('.equation-mark').waitFor();
+    await workbench().getByText('Choose an example').waitFor();
     await polynomials().fill('x^2 - y\ny*(x)');
     await make();
     await state('done');

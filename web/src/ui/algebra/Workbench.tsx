@@ -43,12 +43,13 @@ interface Props {
 function Sheet({ asked, onChange }: Props) {
     const { basis, make, cancel } = useBasis();
     const over = basis === null || isOver(basis);
+    const untold = basis === null || (basis.failure !== null && basis.steps.length === 0);
     return (
         <>
             <div className="workbench">
                 <Question asked={asked} basis={basis} onChange={onChange} />
                 <div className="workbench-told">
-                    {basis === null && <p className="workbench-empty">{TEXTS.empty}</p>}
+                    {untold && <p className="workbench-empty">{TEXTS.empty}</p>}
                     {basis?.answer && <Result answer={basis.answer} />}
                     {basis && basis.failure === null && <Steps steps={basis.steps} />}
                 </div>
