@@ -35,9 +35,13 @@ export function Strip() {
                     <CloudOff size={15} aria-hidden="true" />
                     <span>{text}</span>
                     {gone ? (
-                        <Button onClick={() => goTo(null)}>{t("bar.scenes")}</Button>
+                        <Button look="outline" onClick={() => goTo(null)}>
+                            {t("bar.scenes")}
+                        </Button>
                     ) : (
-                        <Button onClick={() => link.retry()}>{t("link.retry")}</Button>
+                        <Button look="outline" onClick={() => link.retry()}>
+                            {t("link.retry")}
+                        </Button>
                     )}
                 </div>
             )}
