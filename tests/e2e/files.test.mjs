@@ -145,13 +145,13 @@ describe('a scene that is dropped', () => {
 });
 
 describe('other files that are dropped', () => {
-    test('a picture becomes the environment; one step of undo', async () => {
+    test('a picture becomes the backdrop; one step of undo', async () => {
         await open();
         const start = await stage.document(id);
         await drop([HDR]);
         const { environment } = await when((d) => d.environment?.type === 'image', 'a picture around');
         assert.match(environment.image, /^[0-9a-f]{64}$/);
-        await says('sky.hdr is the environment now.');
+        await says('sky.hdr is the backdrop now.');
         await waitForSaved(page);
         await page.keyboard.press('Control+z');
         await until(async () => (await stage.document(id)) === start, 'the scene as it was');
@@ -188,7 +188,7 @@ describe('other files that are dropped', () => {
         await drop([{ name: 'notes.pdf', type: 'application/pdf', bytes: [1, 2, 3] }]);
         await says(/Nothing can be done with notes\.pdf/);
         await drop([{ name: 'broken.hdr', type: '', bytes: [1, 2, 3] }]);
-        await says(/broken\.hdr did not become the environment/);
+        await says(/broken\.hdr did not become the backdrop/);
         assert.equal(await stage.document(id), start);
         page.expected = /400|422|415/;
     });
@@ -203,7 +203,7 @@ describe('other files that are dropped', () => {
         await page.getByTestId('drop-zone').waitFor({ state: 'detached' });
         await asset.dispatchEvent('drop', { dataTransfer });
         await when((d) => d.environment.image, 'the picture');
-        assert.equal(await page.locator('.notices').getByText('is the environment now').count(), 0);
+        assert.equal(await page.locator('.notices').getByText('is the backdrop now').count(), 0);
     });
 });
 
