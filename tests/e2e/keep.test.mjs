@@ -526,6 +526,15 @@ describe('palettes', () => {
         await page.keyboard.press('Escape');
     });
 
+    test('a setting of the backdrop is found by its name', async () => {
+        await open();
+        await page.keyboard.press('Control+k');
+        await page.getByRole('combobox', { name: 'Search and commands' }).fill('floor');
+        await page.locator('[data-entry=setup-environment-floor]').getByText('Backdrop').waitFor();
+        await page.locator('[data-entry=setup-environment-floor]').click();
+        await page.getByRole('switch', { name: 'floor shown' }).waitFor();
+    });
+
     test('Escape closes a dialog, also where a tip is shown in it', async () => {
         await open();
         await page.keyboard.press('Control+Shift+S');

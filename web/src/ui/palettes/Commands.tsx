@@ -17,9 +17,10 @@ import { addTyped, selectNode } from "../insertions.ts";
 import { keyText } from "../layout/keys.ts";
 import { take } from "../library/actions.ts";
 import { useEntries } from "../library/entries.ts";
-import { outputTitle, typeTitle } from "../names.ts";
+import { outputTitle, paramTitle, typeTitle } from "../names.ts";
 import { goTo } from "../route.ts";
 import { ResourceIcon, TypeIcon } from "../scene/ResourceIcon.tsx";
+import { setups } from "../scene/Resources.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { Glyph } from "../widgets/Glyph.tsx";
@@ -149,6 +150,30 @@ function resourceEntries(editor: Editor, document: SceneDocument, query: string)
         );
 }
 
+/* The camera, the backdrop and the settings of drawing, and what can be set there. */
+function setupEntries(editor: Editor, schema: Schema, query: string): Entry[] {
+    const all = setups.flatMap(({ kind, title, icon }) => [
+        { kind, icon, id: kind, name: t(title), note: undefined, doc: "" },
+        ...schema[kind].map((param) => ({
+            kind,
+            icon,
+            id: `${kind}-${param.name}`,
+            name: paramTitle(param),
+            note: t(title),
+            doc: param.doc,
+        })),
+    ]);
+    return search(all, query, ({ name, note = "", doc }) => ({ name, kind: note, doc }))
+        .slice(0, MOST_OTHERS)
+        .map(({ kind, icon: Icon, id, name, note }) => ({
+            id: `setup-${id}`,
+            title: name,
+            note,
+            icon: <Icon size={15} aria-hidden="true" />,
+            run: () => editor.show({ kind }),
+        }));
+}
+
 function outputEntries(editor: Editor, schema: Schema, query: string): Entry[] {
     return search(outputsShown(schema), query, ({ name, doc }) => ({
         name: t("output.show", { name: outputTitle(name) }),
@@ -226,13 +251,17 @@ export function CommandPalette() {
                 title: t("commands.resources"),
                 items: searched ? resourceEntries(editor, document, query) : [],
             };
+            const settings = {
+                title: t("setup.title"),
+                items: searched ? setupEntries(editor, schema, query) : [],
+            };
             const outputs = {
                 title: t("commands.outputs"),
                 items: searched ? outputEntries(editor, schema, query) : [],
             };
             const absent = { title: t("commands.absent"), items: absentEntries(query) };
             const groups = searched
-                ? [offers, nodes, resources, commands, outputs, others, absent]
+                ? [offers, nodes, resources, commands, settings, outputs, others, absent]
                 : [commands, nodes, others];
             return groups.filter(({ items }) => items.length > 0);
         },
