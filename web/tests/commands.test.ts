@@ -365,7 +365,7 @@ test("nothing is cut that was not to be cut", () => {
 
 test("a tool that is added leaves something of what it cuts, open at the top", () => {
     const seat = seatOf(MUG, SCHEMA, { type: "sphere" }, ["outer"], "cut");
-    expect(seat).toMatchObject({ of: ["outer"], cuts: true });
+    expect(seat).toMatchObject({ of: ["outer"], as: "tool" });
     const wide = { low: [1, -1, -1], high: [3, 3, 1] } as const;
     const ground = seat && groundIn(MUG, seat, wide);
     expect(ground).toEqual({ at: [2, 1.8, 0], normal: [0, 1, 0], size: 1.6 });
@@ -379,9 +379,18 @@ test("a tool that is added leaves something of what it cuts, open at the top", (
     expect(seatOf(MUG, SCHEMA, { type: "union" }, ["outer"], "cut")).toBeNull();
 });
 
+test("what is added to blend begins at the side of what it blends with, in sight", () => {
+    const seat = seatOf(MUG, SCHEMA, { type: "torus" }, ["outer"], "blend");
+    expect(seat).toMatchObject({ of: ["outer"], as: "side" });
+    const box = { low: [-3, -0.5, -1], high: [1, 1.5, 1] } as const;
+    expect(seat && groundIn(MUG, seat, box)).toEqual({ at: [1, 0.5, 0], normal: [0, 1, 0] });
+    expect(seatOf(MUG, SCHEMA, { type: "torus" }, [], "blend")).toBeNull();
+    expect(seatOf(MUG, SCHEMA, { type: "torus" }, ["outer"], "union")).toBeNull();
+});
+
 test("a plane that is added lies under all that is there", () => {
     const seat = seatOf(MUG, SCHEMA, { type: "plane" }, [], "union");
-    expect(seat).toMatchObject({ of: [], cuts: false });
+    expect(seat).toMatchObject({ of: [], as: "floor" });
     const box = { low: [-3, -0.5, -1], high: [1, 1, 1] } as const;
     expect(seat && groundIn(MUG, seat, box)).toEqual({ at: [0, -0.5, 0], normal: [0, 1, 0] });
     const empty = readDocument({ root: { id: "root", type: "union" } });

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Where something new begins that at the origin would leave nothing of what it cuts, or lie in the
- * middle of what it is to lie under. */
+/* Where something new begins that at the origin would leave nothing of what it cuts, be hidden in
+ * what it blends with, or lie in the middle of what it is to lie under. */
 import type { Addition } from "./add.ts";
 import type { Box } from "./camera.ts";
 import { pathTo, type SceneDocument } from "./document.ts";
@@ -25,7 +25,7 @@ const takesAway = (type: string | undefined): boolean => type?.endsWith("differe
 export interface Seat {
     readonly of: readonly string[];
     readonly above: string;
-    readonly cuts: boolean;
+    readonly as: "tool" | "side" | "floor";
 }
 
 /* Null: it begins where its own numbers say. */
@@ -44,17 +44,24 @@ export function seatOf(
     const into = document.nodes.get(place.spot.into);
     const base = into ? into.children[0] : selection.at(-1);
     if (takesAway(into?.type ?? WAYS[way])) {
-        return base === undefined ? null : { of: [base], above: place.above, cuts: true };
+        return base === undefined ? null : { of: [base], above: place.above, as: "tool" };
+    }
+    const active = selection.at(-1);
+    if (place.way === "blend" && active !== undefined && !isEndless(row)) {
+        return { of: [active], above: place.above, as: "side" };
     }
     const isFirst = document.nodes.get(document.root)?.children.length === 0;
-    return isEndless(row) && !isFirst ? { of: [], above: place.above, cuts: false } : null;
+    return isEndless(row) && !isFirst ? { of: [], above: place.above, as: "floor" } : null;
 }
 
 export function groundIn(document: SceneDocument, seat: Seat, { low, high }: Box): Ground {
-    if (!seat.cuts) {
+    if (seat.as === "floor") {
         return { at: [0, tidy(low[1]), 0], normal: UP };
     }
     const [x, y, z] = [0, 1, 2].map((i) => ((low[i] ?? 0) + (high[i] ?? 0)) / 2);
+    if (seat.as === "side") {
+        return { at: [tidy(high[0]), y ?? 0, z ?? 0], normal: UP };
+    }
     const sides = [high[0] - low[0], high[2] - low[2]];
     const around = pathTo(document, seat.above).map((node) => transformOf(node).scale[0]);
     const size = (WIDTH * Math.min(...sides)) / around.reduce((all, one) => all * one, 1);
