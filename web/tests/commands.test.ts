@@ -16,6 +16,7 @@ import { isApart } from "../src/model/document.ts";
 import { printDocument, readDocument } from "../src/model/documentJson.ts";
 import { moveNodes, wrap } from "../src/model/edits.ts";
 import { groundIn, seatOf } from "../src/model/fitting.ts";
+import type { JsonObject } from "../src/model/json.ts";
 import {
     isTaken,
     KEYMAPS,
@@ -390,11 +391,17 @@ test("what is added to blend begins at the side of what it blends with, in sight
 
 test("a plane that is added lies under all that is there", () => {
     const seat = seatOf(MUG, SCHEMA, { type: "plane" }, [], "union");
-    expect(seat).toMatchObject({ of: [], as: "floor" });
+    expect(seat).toMatchObject({ of: ["outer", "inner"], as: "floor" });
     const box = { low: [-3, -0.5, -1], high: [1, 1, 1] } as const;
     expect(seat && groundIn(MUG, seat, box)).toEqual({ at: [0, -0.5, 0], normal: [0, 1, 0] });
-    const empty = readDocument({ root: { id: "root", type: "union" } });
-    expect(seatOf(empty, SCHEMA, { type: "plane" }, [], "union")).toBeNull();
+    const wall = { id: "wall", type: "plane" };
+    const seatBeside = (children: JsonObject[]) => {
+        const document = readDocument({ root: { id: "root", type: "union", children } });
+        return seatOf(document, SCHEMA, { type: "plane" }, [], "union");
+    };
+    expect(seatBeside([wall, { id: "ball", type: "sphere" }])?.of).toEqual(["ball"]);
+    expect(seatBeside([wall])).toBeNull();
+    expect(seatBeside([])).toBeNull();
 });
 
 test("a scene that is one difference says that an addition cuts", () => {

@@ -3,7 +3,7 @@
  * what it blends with, or lie in the middle of what it is to lie under. */
 import type { Addition } from "./add.ts";
 import type { Box } from "./camera.ts";
-import { pathTo, type SceneDocument } from "./document.ts";
+import { isShown, pathTo, preorder, type SceneDocument } from "./document.ts";
 import type { Ground } from "./landing.ts";
 import { isContainer, placing, WAYS, type Way } from "./placing.ts";
 import { type NodeType, nodeType, type Schema } from "./schema.ts";
@@ -50,8 +50,16 @@ export function seatOf(
     if (place.way === "blend" && active !== undefined && !isEndless(row)) {
         return { of: [active], above: place.above, as: "side" };
     }
-    const isFirst = document.nodes.get(document.root)?.children.length === 0;
-    return isEndless(row) && !isFirst ? { of: [], above: place.above, as: "floor" } : null;
+    const standing = isEndless(row) ? shapesOf(document, schema) : [];
+    return standing.length > 0 ? { of: standing, above: place.above, as: "floor" } : null;
+}
+
+/* Those with an end. The box of what blends them has room for what it adds. */
+function shapesOf(document: SceneDocument, schema: Schema): readonly string[] {
+    return preorder(document, document.root).filter((id) => {
+        const row = nodeType(schema, document.nodes.get(id)?.type ?? "");
+        return row?.children === "none" && !isEndless(row) && isShown(document, id);
+    });
 }
 
 export function groundIn(document: SceneDocument, seat: Seat, { low, high }: Box): Ground {
