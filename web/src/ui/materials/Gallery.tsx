@@ -15,10 +15,11 @@ import { useEntries } from "../library/entries.ts";
 import { typeTitle } from "../names.ts";
 import { type Face, type Group, PaletteBody } from "../palettes/Palette.tsx";
 import { useEditor } from "../state.ts";
-import { t } from "../texts.ts";
+import { fillText, t } from "../texts.ts";
 import { Button } from "../widgets/Button.tsx";
 import { useBall } from "./balls.ts";
 import { dragPreset } from "./drag.ts";
+import { TEXTS } from "./texts.ts";
 import "./materials.css";
 
 interface Props {
@@ -60,7 +61,7 @@ export default function Gallery({ use, onClose }: Props) {
         <div className="gallery" data-testid="gallery">
             <PaletteBody
                 title={t("gallery.title")}
-                placeholder={t("gallery.search")}
+                placeholder={TEXTS.search}
                 grid
                 field={field}
                 find={find}
@@ -86,7 +87,7 @@ function trialOf({ stores }: Editor, preset: Preset, use: string): Trial | null 
     }
     const { name } = preset;
     const { ops } = newResource(document, schema, "materials", use, [], "union", preset);
-    return { ops, name, words: t("gallery.trying", { name: typeTitle(name) }) };
+    return { ops, name, words: fillText(TEXTS.trying, { name: typeTitle(name) }) };
 }
 
 function findIn(entries: readonly EntryRow[], query: string): readonly Group<Choice>[] {
@@ -94,12 +95,12 @@ function findIn(entries: readonly EntryRow[], query: string): readonly Group<Cho
         const items = search<Choice>([...entries, ...PRESETS], query, (choice) =>
             isEntry(choice)
                 ? { name: choice.name, words: t("library.title") }
-                : { name: typeTitle(choice.name), words: t(`gallery.${choice.group}`), doc: "" },
+                : { name: typeTitle(choice.name), words: TEXTS[choice.group], doc: "" },
         );
         return [{ title: t("add.results"), items }];
     }
     const presets = PRESET_GROUPS.map((group) => ({
-        title: t(`gallery.${group}`),
+        title: TEXTS[group],
         items: PRESETS.filter((preset) => preset.group === group),
     }));
     return [{ title: t("library.title"), items: entries }, ...presets];
@@ -150,9 +151,7 @@ function Foot({ use, onClose }: Props) {
     const editor = useEditor();
     return (
         <>
-            <span className="palette-what">
-                {t(use === null ? "gallery.what" : "gallery.whatTry")}
-            </span>
+            <span className="palette-what">{use === null ? TEXTS.what : TEXTS.whatTry}</span>
             <Button
                 data-size="s"
                 onClick={() => {
