@@ -478,6 +478,24 @@ test("a material of a preset has its name, plainly where that is free", () => {
     expect(new Set(PRESETS.map(({ name }) => name)).size).toBe(PRESETS.length);
 });
 
+test("a preset that is used once more is the same material, until it is changed", () => {
+    const [preset] = PRESETS;
+    const use = (document: SceneDocument, node: string) =>
+        newResource(document, SCHEMA, "materials", `/nodes/${node}/material`, [], "union", preset);
+    const after = (document: SceneDocument, ops: readonly Operation[]) => {
+        const result = apply(document, ops, SCHEMA);
+        return result.ok ? result.document : document;
+    };
+    const once = after(scene(), use(scene(), "hat").ops);
+    expect(use(once, "head").ops).toEqual([set("/nodes/head/material", preset?.name ?? "")]);
+    const [property] = Object.keys(preset?.properties ?? {});
+    const changed = after(once, [
+        set(`/materials/${preset?.name}/properties/${property}`, [0, 0, 0]),
+    ]);
+    expect(changed).not.toBe(once);
+    expect(use(changed, "head").name).toBe(`${preset?.name}-1`);
+});
+
 /* --- another shader --- */
 
 const SHADED = readDocument({

@@ -12,7 +12,7 @@ import {
 } from "./document.ts";
 import { printResource } from "./documentJson.ts";
 import { type Edit, freshIds, freshNames, renamedModel } from "./edits.ts";
-import type { Json, JsonObject } from "./json.ts";
+import { equalJson, type Json, type JsonObject } from "./json.ts";
 import type { Operation } from "./operation.ts";
 import { LISTS, type ListName, resourcePlace, valuesPlace } from "./places.ts";
 import { placing, type Way } from "./placing.ts";
@@ -119,6 +119,12 @@ export function newResource(
         ? plainName(document, list, preset.name)
         : freeName(document, list, LISTS[list].one);
     const made = preset && presetParts(document, preset);
+    const like = preset && findResource(document, list, preset.name);
+    /* Once more where nobody has changed it. */
+    if (use !== null && like && equalJson(printResource(document, list, like), made?.value)) {
+        const ops: Operation[] = [{ op: "set", at: use, value: like.name }];
+        return { ops, label: `use ${like.name}`, select: selection, name: like.name };
+    }
     const { value, seen, select } = newParts(
         document,
         schema,
