@@ -57,6 +57,16 @@ static bool has_estimates(const struct field *field)
     return false;
 }
 
+/* While the outermost shape is dragged, rays begin where they did before, and the rest of the
+ * picture is the same (engine/seen.h). In a large field that costs more than it saves: right above
+ * many shapes the distance depends on all of them, and rays would begin there. */
+static double bounds_step(const struct field *field, double scale)
+{
+    enum { FEW = 128, PARTS = 16 };
+
+    return field->instruction_count <= FEW ? exp2(floor(log2(scale))) / PARTS : 0;
+}
+
 /* `limit_loops`: the driver ends long ones. */
 struct scene_bounds snapshot_bounds(const struct geometry *geometry, const struct record *camera,
                                     bool limit_loops)
@@ -67,6 +77,7 @@ struct scene_bounds snapshot_bounds(const struct geometry *geometry, const struc
                                   .transmissive = field->transmissive,
                                   .reflective = is_reflective(field),
                                   .estimates = has_estimates(field),
+                                  .step = bounds_step(field, scene_scale(camera)),
                                   .loop_trips = (int)field->loop_trips,
                                   .limit_loops = limit_loops};
 

@@ -169,23 +169,25 @@ static void set_volumes(struct frame_uniforms *block, const struct resource_list
     }
 }
 
-static void set_transmissive(struct frame_uniforms *block, const struct scene_bounds *extent)
+/* Outwards to steps, with a little room, so that a surface on the bounds is inside of them. */
+static void set_box(float low[3], float high[3], const double min[3], const double max[3],
+                    const struct scene_bounds *extent)
 {
+    const double room = 1e-3 * (1 + fabs(extent->scale)), step = extent->step;
+
     for (int i = 0; i < 3; i++) {
-        block->transmissive_min[i] = (float)clamp(extent->transmissive_min[i], -FAR_AWAY, FAR_AWAY);
-        block->transmissive_max[i] = (float)clamp(extent->transmissive_max[i], -FAR_AWAY, FAR_AWAY);
+        const double from = min[i] - room, to = max[i] + room;
+        low[i] = (float)clamp(step > 0 ? step * floor(from / step) : from, -FAR_AWAY, FAR_AWAY);
+        high[i] = (float)clamp(step > 0 ? step * ceil(to / step) : to, -FAR_AWAY, FAR_AWAY);
     }
-    block->has_transmissive = extent->transmissive;
 }
 
 static void set_bounds(struct frame_uniforms *block, const struct scene_bounds *extent)
 {
-    for (int i = 0; i < 3; i++) {
-        /* A little room, so that a surface on the bounds is inside of them. */
-        const double room = 1e-3 * (1 + fabs(extent->scale));
-        block->bounds_min[i] = (float)clamp(extent->min[i] - room, -FAR_AWAY, FAR_AWAY);
-        block->bounds_max[i] = (float)clamp(extent->max[i] + room, -FAR_AWAY, FAR_AWAY);
-    }
+    set_box(block->bounds_min, block->bounds_max, extent->min, extent->max, extent);
+    set_box(block->transmissive_min, block->transmissive_max, extent->transmissive_min,
+            extent->transmissive_max, extent);
+    block->has_transmissive = extent->transmissive;
 }
 
 static double occlusion_reach(const struct record *render, const struct scene_bounds *extent)
@@ -207,7 +209,6 @@ void frame_uniforms_set_scene(struct frame_uniforms *block, const struct scene *
     set_volumes(block, &scene->volumes);
     set_environment(block, &scene->environment);
     set_bounds(block, extent);
-    set_transmissive(block, extent);
     block->max_distance = (float)record_number(render, "max_distance");
     block->exposure = (float)exp2(record_number(render, "exposure"));
     block->occlusion_reach = (float)occlusion_reach(render, extent);

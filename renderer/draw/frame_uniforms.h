@@ -17,6 +17,7 @@ struct scene_bounds {
     bool reflective;  /* something reflects, or light goes through it */
     bool estimates;   /* some shapes estimate their distance: glsl/field_mask.glsl */
     double scale;     /* size of what is of interest; occlusion reaches a part */
+    double step;      /* where rays begin and end is rounded outwards to it; 0: it is not */
     int loop_trips;   /* loop iterations in one evaluation */
     bool limit_loops; /* the driver counts iterations: llvmpipe stops at 65,535 */
 };

@@ -17,7 +17,7 @@
 #include "tests/support/numeric_edit.h"
 
 enum { WIDTH = 76, HEIGHT = 60, EDITS = 36, EDITS_OF_A_LIFE = 6, SCATTERED = 160 };
-enum { MANY = 1000, MOVES = 3, LARGER = 4 };
+enum { MANY = 1000, FEW = 30, MOVES = 3, LARGER = 4 };
 
 /* The other one forgets what it knows before each picture. */
 static struct renderer *renderer, *forgetful;
@@ -253,6 +253,55 @@ static void edits_change_what_they_have_to(void **state)
     assert_true(less > edits / 5);
 }
 
+/* The one that the scene's bounds depend on. */
+static const struct node *highest(const struct scene *scene)
+{
+    const struct node *best = scene->root->children[0];
+
+    for (size_t i = 1; i < scene->root->child_count; i++) {
+        const struct node *node = scene->root->children[i];
+        if (record_vector(&node->transform, "translation")[1] >
+            record_vector(&best->transform, "translation")[1]) {
+            best = node;
+        }
+    }
+    return best;
+}
+
+static struct pair scattered(struct random *random, int count, const struct job_desc *desc)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+
+    assert_non_null(out);
+    fputs(BESIDE, out);
+    write_scattered(random, out, count, 2);
+    assert_int_equal(fclose(out), 0);
+    struct scene *scene = json_text_valid_scene(text);
+    const struct pair pair = {resident_create(renderer, scene_copy(scene), 1),
+                              resident_create(forgetful, scene, 1)};
+    free(text);
+    check(&pair, desc, NULL);
+    return pair;
+}
+
+/* Answers which part of the pixels was drawn. */
+static double go(const struct pair *pair, const struct job_desc *desc, const struct node *node,
+                 double right, double up)
+{
+    const double *at = record_vector(&node->transform, "translation");
+    cJSON *ops =
+        parse("[{'op':'set','at':'/nodes/%s/transform/translation','value':[%.9g,%.9g,%.9g]}]",
+              node->id, at[0] + right, at[1] + up, at[2]);
+
+    assert_true(edit(pair, ops));
+    const double part = check(pair, desc, ops);
+    print_message("%.3f of the pixels were drawn\n", part);
+    cJSON_Delete(ops);
+    return part;
+}
+
 /* One of many goes by a tenth of its size. */
 static void a_small_move_draws_little(void **state)
 {
@@ -262,33 +311,31 @@ static void a_small_move_draws_little(void **state)
 
     desc.width *= LARGER;
     desc.height *= LARGER;
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-
-    assert_non_null(out);
-    fputs(BESIDE, out);
-    write_scattered(&random, out, MANY, 2);
-    assert_int_equal(fclose(out), 0);
-    struct scene *scene = json_text_valid_scene(text);
-    const struct pair pair = {resident_create(renderer, scene_copy(scene), 1),
-                              resident_create(forgetful, scene, 1)};
-    check(&pair, &desc, NULL);
+    const struct pair pair = scattered(&random, MANY, &desc);
     for (int i = 0; i < MOVES; i++) {
         const struct node *node = any_child(&random, resident_scene(pair.kept));
-        const double *at = record_vector(&node->transform, "translation");
-        cJSON *ops =
-            parse("[{'op':'set','at':'/nodes/%s/transform/translation','value':[%.9g,%.9g,%.9g]}]",
-                  node->id, at[0] + 0.008, at[1], at[2]);
-        assert_true(edit(&pair, ops));
-        const double part = check(&pair, &desc, ops);
-        print_message("%.3f of the pixels were drawn\n", part);
-        assert_true(part <= 0.2);
-        cJSON_Delete(ops);
+        assert_true(go(&pair, &desc, node, 0.008, 0) <= 0.2);
     }
     resident_destroy(pair.kept);
     resident_destroy(pair.forgotten);
-    free(text);
+}
+
+/* Few have some outermost one nearly always. */
+static void a_move_of_the_bounds_draws_little(void **state)
+{
+    (void)state;
+    struct random random = {83};
+    struct job_desc desc = desc_of(0);
+
+    desc.width *= LARGER;
+    desc.height *= LARGER;
+    const struct pair pair = scattered(&random, FEW, &desc);
+    for (int i = 0; i < MOVES; i++) {
+        const struct node *node = highest(resident_scene(pair.kept));
+        assert_true(go(&pair, &desc, node, 0, 0.01) <= 0.6);
+    }
+    resident_destroy(pair.kept);
+    resident_destroy(pair.forgotten);
 }
 
 static int set_up(void **state)
@@ -318,6 +365,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edits_change_what_they_have_to),
         cmocka_unit_test(a_small_move_draws_little),
+        cmocka_unit_test(a_move_of_the_bounds_draws_little),
     };
 
     return cmocka_run_group_tests_name("pictures after edits", tests, set_up, tear_down);
