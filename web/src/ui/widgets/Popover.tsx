@@ -4,6 +4,11 @@ import { Popover as Base } from "@base-ui/react/popover";
 import type { ReactElement, ReactNode } from "react";
 import "./popup.css";
 
+/* --bar of theme.css: its buttons stay whole beside what is higher than the panels. */
+const BAR = 44;
+const FREE = 8;
+const PADDING = { top: BAR + FREE, right: FREE, bottom: FREE, left: FREE };
+
 interface Props {
     trigger: ReactElement;
     label: string;
@@ -33,7 +38,7 @@ export function Popover({
                     side={side}
                     align={align}
                     sideOffset={6}
-                    collisionPadding={8}
+                    collisionPadding={PADDING}
                 >
                     <Base.Popup className="popup popover" aria-label={label}>
                         {children}
