@@ -2,6 +2,7 @@
 // Undo over reloads of the page, and beside somebody else.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { until } from '../support/daemon.mjs';
 import {
     closePage,
     documentWhen,
@@ -86,4 +87,22 @@ test('what somebody else deletes while its values are looked at is told by its n
     await field(one, 'radius').waitFor();
     await closePage(one);
     await closePage(other);
+});
+
+test('an addition taken back selects what was selected before it', async () => {
+    const id = await stage.scene();
+    const page = await stage.page({ scene: id });
+    const chosen = () => page.locator('[data-node][aria-selected=true]').evaluateAll((list) => list.map((one) => one.dataset.node).join());
+    await row(page, 'ring').click();
+    await page.keyboard.press('Shift+A');
+    await page.getByRole('combobox').fill('cone');
+    await page.keyboard.press('Enter');
+    await until(async () => (await chosen()) === 'cone-1', 'the new cone selected');
+    await page.keyboard.press('Control+z');
+    await until(async () => (await chosen()) === 'ring', 'the ring selected again');
+    await page.keyboard.press('Control+y');
+    await until(async () => (await chosen()) === 'cone-1', 'the cone back and selected');
+    await page.keyboard.press('Control+z');
+    await until(async () => (await chosen()) === 'ring', 'the ring once more');
+    await closePage(page);
 });

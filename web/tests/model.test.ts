@@ -28,7 +28,7 @@ import { search } from "../src/model/search.ts";
 import { addNotice, createStores, dismissNotice } from "../src/model/stores.ts";
 import { text } from "../src/model/texts.ts";
 import { checkValue, clampNumber } from "../src/model/values.ts";
-import { select } from "../src/model/view.ts";
+import { select, selectAfter } from "../src/model/view.ts";
 import { SCHEMA, scene } from "./fixture.ts";
 
 const NOT_A_NAME = '"gl_a" is not a name for code: letters, digits and _, no digit first';
@@ -120,10 +120,14 @@ test("walks, free names, the node of a place", () => {
 });
 
 test("one group is one step, and the server's counts win", () => {
-    let history = recordStep(EMPTY_HISTORY, { group: "a", label: "move head" });
-    history = recordStep(history, { group: "a", label: "" });
-    expect(history.undo).toHaveLength(1);
-    history = recordStep(history, { group: "", label: "delete hat" });
+    let history = recordStep(EMPTY_HISTORY, {
+        group: "a",
+        label: "move head",
+        selection: ["head"],
+    });
+    history = recordStep(history, { group: "a", label: "", selection: [] });
+    expect(history.undo.map(({ selection }) => selection)).toEqual([["head"]]);
+    history = recordStep(history, { group: "", label: "delete hat", selection: [] });
     expect(undoTitle(history)).toBe("Undo delete hat");
     history = recordUndo(history);
     expect([undoTitle(history), redoTitle(history)]).toEqual(["Undo move head", "Redo delete hat"]);
@@ -136,7 +140,11 @@ test("one group is one step, and the server's counts win", () => {
 });
 
 test("steps of the page before get the server's names, newest first", () => {
-    const own = recordStep(fitHistory(EMPTY_HISTORY, 2, 1), { group: "", label: "mine" });
+    const own = recordStep(fitHistory(EMPTY_HISTORY, 2, 1), {
+        group: "",
+        label: "mine",
+        selection: [],
+    });
     const named = nameSteps(own, ["other name", "delete hat", "move head"], ["grow"]);
     expect(named.undo.map(({ label }) => label)).toEqual(["move head", "delete hat", "mine"]);
     expect(undoTitle(named)).toBe("Undo mine");
@@ -148,6 +156,14 @@ test("selection replaces, adds and toggles; the active node is last", () => {
     expect(select(["a", "b"], "a", "toggle")).toEqual(["b"]);
     expect(select(["a"], null, "replace")).toEqual([]);
     expect(select(["a"], null, "add")).toEqual(["a"]);
+});
+
+test("an undo selects what it brings back, else what was selected before what it takes away", () => {
+    const after = (...lists: [string[], string[], string[]]) => selectAfter(scene(), ...lists);
+    expect(after(["gone"], ["hat"], ["head"])).toEqual(["hat"]);
+    expect(after(["gone"], [], ["head", "lost", "hat"])).toEqual(["head", "hat"]);
+    expect(after(["body", "gone"], [], ["head"])).toEqual(["body", "gone"]);
+    expect(after([], [], ["head"])).toEqual([]);
 });
 
 test("equal notices in a row count up", () => {

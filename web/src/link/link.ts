@@ -21,6 +21,7 @@ import { EMPTY_DOCUMENT_STATE, IDLE_LINK, type LinkState, type Stores } from "..
 import { text } from "../model/texts.ts";
 import { vectorOf } from "../model/transform.ts";
 import { checkValue } from "../model/values.ts";
+import { selectAfter } from "../model/view.ts";
 import { type Author, randomId } from "./author.ts";
 import type { Report } from "./engine.ts";
 import { type Host, startHost } from "./host.ts";
@@ -90,6 +91,12 @@ export interface LinkOptions {
     readonly name?: string;
 }
 
+/* Of an undo or redo: the nodes that it has brought back, and what was selected before the step. */
+interface Turn {
+    readonly back: readonly string[];
+    readonly before: readonly string[];
+}
+
 class SceneLink implements Link {
     readonly #stores: Stores;
     readonly #options: LinkOptions;
@@ -106,8 +113,8 @@ class SceneLink implements Link {
     #session: sessions.Session | null = null;
     #author: Author | null = null;
     #groups = 0;
-    /* Nodes that an undo or redo has brought back, to be selected. */
-    #back: readonly string[] = [];
+    /* The undo or redo that has just arrived. */
+    #turned: Turn | null = null;
     #flushDue = false;
 
     constructor(stores: Stores, options: LinkOptions) {
@@ -306,10 +313,20 @@ class SceneLink implements Link {
             this.#flush();
         }
         this.#publish();
-        if (this.#back.length > 0) {
-            this.#stores.view.setState({ selection: this.#back, subject: { kind: "nodes" } });
-            this.#back = [];
+        this.#selectTurned();
+    }
+
+    #selectTurned(): void {
+        const { document } = this.#stores.document.getState();
+        const { selection } = this.#stores.view.getState();
+        if (this.#turned && document) {
+            const { back, before } = this.#turned;
+            const next = selectAfter(document, selection, back, before);
+            if (next !== selection) {
+                this.#stores.view.setState({ selection: next, subject: { kind: "nodes" } });
+            }
         }
+        this.#turned = null;
     }
 
     /* Steps of the author's page before. */
@@ -330,8 +347,8 @@ class SceneLink implements Link {
                 this.#notices.skipped(event.ops);
                 break;
             case "done":
+                this.#turned = this.#turnOf(event.pending, event.ops ?? []);
                 this.#done(event.pending);
-                this.#back = event.pending.kind === "edit" ? [] : insertedNodes(event.ops ?? []);
                 break;
             case "resync":
                 this.#notices.add("warning", "resync", text("link.resync"));
@@ -340,6 +357,16 @@ class SceneLink implements Link {
             default:
                 break;
         }
+    }
+
+    #turnOf({ kind }: sessions.PendingEdit, ops: readonly Operation[]): Turn | null {
+        const { undo } = this.#stores.document.getState().history;
+        return kind === "edit"
+            ? null
+            : {
+                  back: insertedNodes(ops),
+                  before: kind === "undo" ? (undo.at(-1)?.selection ?? []) : [],
+              };
     }
 
     #done({ kind, ops }: sessions.PendingEdit): void {
@@ -371,8 +398,9 @@ class SceneLink implements Link {
         }
         this.#session = result.session;
         const { group = "", label = "" } = options;
+        const { selection } = this.#stores.view.getState();
         this.#stores.document.setState(({ history }) => ({
-            history: recordStep(history, { group, label }),
+            history: recordStep(history, { group, label, selection }),
         }));
         this.#publish();
         if (group === "") {

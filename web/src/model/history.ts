@@ -5,6 +5,8 @@
 export interface Step {
     readonly group: string;
     readonly label: string;
+    /* What was selected before it. */
+    readonly selection: readonly string[];
 }
 
 export interface History {
@@ -18,7 +20,7 @@ export const EMPTY_HISTORY: History = { undo: [], redo: [] };
 export function recordStep(history: History, step: Step): History {
     const newest = history.undo.at(-1);
     if (step.group !== "" && newest?.group === step.group) {
-        const joined = { group: step.group, label: step.label || newest.label };
+        const joined = { ...newest, label: step.label || newest.label };
         return { undo: [...history.undo.slice(0, -1), joined], redo: [] };
     }
     return { undo: [...history.undo, step], redo: [] };
@@ -40,7 +42,7 @@ export function recordRedo(history: History): History {
     return step ? { undo: [...history.undo, step], redo: history.redo.slice(0, -1) } : history;
 }
 
-const UNNAMED: Step = { group: "", label: "" };
+const UNNAMED: Step = { group: "", label: "", selection: [] };
 
 function fitSteps(steps: readonly Step[], count: number): readonly Step[] {
     const missing = Math.max(0, count - steps.length);

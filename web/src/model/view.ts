@@ -3,6 +3,7 @@
  * never part of a document, never sent to others. */
 
 import type { Box } from "./camera.ts";
+import type { SceneDocument } from "./document.ts";
 import { MOTIONS, type Motion } from "./grip.ts";
 import { PIVOTS, type Pivot, SPACES, type Space } from "./hands.ts";
 import { KEYMAPS, type KeyChoices } from "./keymap.ts";
@@ -199,6 +200,21 @@ export function select(
     }
     const toggledOff = mode === "toggle" && others.length < selection.length;
     return toggledOff ? others : [...others, id];
+}
+
+/* The selection after an undo or redo: what it has brought back; where all that was selected is gone,
+ * what was selected before the step. */
+export function selectAfter(
+    document: SceneDocument,
+    selection: readonly string[],
+    back: readonly string[],
+    before: readonly string[],
+): readonly string[] {
+    const isThere = (id: string): boolean => document.nodes.has(id);
+    if (back.length > 0) {
+        return back;
+    }
+    return selection.length === 0 || selection.some(isThere) ? selection : before.filter(isThere);
 }
 
 /* Unfolds all that hides a node. */
