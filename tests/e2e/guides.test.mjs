@@ -206,6 +206,42 @@ test('a group is outlined by all that is in it; a command takes outlines away', 
     assert.ok(await chosen('soft'));
 });
 
+test('what is within something else has its box drawn while it is selected', async () => {
+    const inner = { ...ball('inner', 0.5, 0.2, 0.5) };
+    const outer = { ...ball('outer', 0.5, 0.2, 2) };
+    scene = await stage.scene({ ...DOCUMENT, root: { ...DOCUMENT.root, children: [outer, inner] } });
+    page = await stage.page({ scene });
+    await settled(page);
+    await row(page, 'outer').click();
+    await until(async () => (await shown()).selected === 'outer', 'the outline of the outer ball');
+    assert.equal((await shown()).boxed, 'false');
+    await row(page, 'inner').click();
+    await until(async () => (await shown()).boxed === 'true', 'the box of the inner ball');
+    const box = await picture(page).boundingBox();
+    const spots = await drawn();
+    assert.ok(spots.length > 100, `${spots.length} pixels`);
+    const corners = [-0.5, 0.5].flatMap((x) => [-0.5, 0.5].flatMap((y) => [-0.5, 0.5].map((z) => [0.5 + x, 0.2 + y, z])));
+    const ends = await Promise.all(corners.map(spotOf));
+    const least = (axis) => Math.min(...ends.map((end) => end[axis])) - box[axis];
+    for (const [i, axis] of ['x', 'y'].entries()) {
+        const found = Math.min(...spots.map((spot) => spot[i]));
+        assert.ok(Math.abs(found - least(axis)) < 4, `${axis} begins at ${found}, not at ${least(axis)}`);
+    }
+});
+
+test('a plane, which has no end, has no outline', async () => {
+    const plane = { id: 'ground', type: 'plane', transform: { translation: [0, -1, 0] } };
+    scene = await stage.scene({ ...DOCUMENT, root: { ...DOCUMENT.root, children: [plane, ball('alone', 0, 0, 1)] } });
+    page = await stage.page({ scene });
+    await settled(page);
+    await row(page, 'root').click();
+    await until(async () => (await shown()).selected.includes('alone'), 'the outline of what has an end');
+    await row(page, 'ground').click();
+    await until(async () => (await shown()).selected === '', 'no outline');
+    assert.equal((await drawn()).length, 0);
+    assert.ok(await chosen('ground'));
+});
+
 test('Shift and a drag select what is seen in a rectangle, beside what is selected', async () => {
     await open();
     const drag = async (from, to, keys = []) => {

@@ -6,7 +6,7 @@ import type { Box } from "./camera.ts";
 import { isShown, pathTo, preorder, type SceneDocument } from "./document.ts";
 import type { Ground } from "./landing.ts";
 import { isContainer, placing, WAYS, type Way } from "./placing.ts";
-import { type NodeType, nodeType, type Schema } from "./schema.ts";
+import { isEndless, nodeType, type Schema } from "./schema.ts";
 import { transformOf, type Vector } from "./transform.ts";
 import { tidy } from "./units.ts";
 
@@ -14,10 +14,6 @@ import { tidy } from "./units.ts";
 const WIDTH = 0.8;
 const LIFT = 0.2;
 const UP: Vector = [0, 1, 0];
-
-/* One side of a flat border, without an end. */
-const isEndless = (row: NodeType | null): boolean =>
-    row?.params.some(({ direction }) => direction) === true;
 
 const takesAway = (type: string | undefined): boolean => type?.endsWith("difference") === true;
 

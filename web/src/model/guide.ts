@@ -57,6 +57,12 @@ export function nodesIn(
     return [...new Set(guide.ids.filter((_, i) => seen.has(i + 1)))];
 }
 
+/* Whether a pixel shows one of the nodes. */
+export function isSeen(guide: Guide, nodes: ReadonlySet<string>): boolean {
+    const wanted = Uint8Array.from([0, ...guide.ids.map((id) => Number(nodes.has(id)))]);
+    return wanted.includes(1) && guide.indices.some((index) => wanted[index] === 1);
+}
+
 /* Ends of the segment that separates the corners of a square of four pixels, by which of them are
  * inside (1 left top, 2 right top, 4 right bottom, 8 left bottom); each end is the middle of a side:
  * 0 top, 1 right, 2 bottom, 3 left. Opposite corners have two (marching squares; Lorensen and Cline,

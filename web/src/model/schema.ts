@@ -380,6 +380,10 @@ export function nodeType(schema: Schema, type: string): NodeType | null {
     return rows.get(type) ?? null;
 }
 
+/* One side of a flat border, without an end. */
+export const isEndless = (row: NodeType | null): boolean =>
+    row?.params.some(({ direction }) => direction) === true;
+
 export function shaderType(schema: Schema, type: string): TypeRow | null {
     return schema.shaders.find((row) => row.type === type) ?? null;
 }

@@ -107,7 +107,7 @@ function Picture() {
         editor.setPicture(element);
         const hide = editor.link.attach(element);
         const grid = new Grid(editor.stores, element);
-        const outlines = new Outlines(editor.stores, element);
+        const outlines = new Outlines(editor.stores, element, editor.bounds);
         const hands = handsIn(editor, element);
         const actions = pointerActions(editor, element, hands.get, open, setUnder);
         setActs(actions);
