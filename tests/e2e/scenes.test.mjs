@@ -200,13 +200,13 @@ test('files that cannot be read say where; of several scenes one is chosen', asy
     expectRefusals();
 });
 
-test('an address without a scene says so and leads to the scenes', async () => {
+test('an address without a scene says so, without tools, and leads to the scenes', async () => {
     page = await stage.page();
     page.expected = /404|WebSocket/;
     await page.goto(`${stage.daemon.url}/s/nowhere`);
-    const strip = page.getByTestId('strip');
-    await strip.getByText('There is no such scene').waitFor();
-    await strip.getByRole('button', { name: 'All scenes' }).click();
+    await page.getByRole('heading', { name: /^There is no such scene/ }).waitFor();
+    assert.equal(await page.getByRole('button').count(), 1);
+    await page.getByRole('button', { name: 'All scenes' }).click();
     await page.getByRole('heading', { name: 'Your scenes' }).waitFor();
 });
 

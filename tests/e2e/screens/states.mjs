@@ -60,7 +60,7 @@ const OTHERS = [
     }, { scene: STUDIO, narrow: true }],
     ['no such scene', async (page) => {
         page.expected = /404|WebSocket/;
-        await page.getByTestId('strip').waitFor();
+        await page.getByRole('heading', { name: /^There is no such scene/ }).waitFor();
     }, { scene: null, path: '/s/nowhere' }],
     ['example, still life', async () => {}, { scene: example('still-life') }],
     ['example, duck', async () => {}, { scene: example('duck') }],

@@ -223,7 +223,8 @@ class SceneLink implements Link {
             this.#session = sessions.disconnect(this.#session);
             this.#failQuestions();
         }
-        if (state === "offline" && attempts >= ATTEMPTS_BEFORE_PROBE) {
+        const never = this.#session?.confirmed === null;
+        if (state === "offline" && (never || attempts >= ATTEMPTS_BEFORE_PROBE)) {
             void this.#probe();
         }
     }
@@ -550,7 +551,7 @@ class SceneLink implements Link {
     }
 }
 
-/* Failed attempts after which the reason is looked for. */
+/* Failed attempts after which the reason is looked for; at once where the scene was never there. */
 const ATTEMPTS_BEFORE_PROBE = 2;
 /* Answers that waiting will not change. */
 const FINAL_STATUS: readonly number[] = [400, 401, 403, 404];

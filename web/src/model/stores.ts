@@ -128,6 +128,10 @@ export interface LinkState {
     readonly statistics: Statistics | null;
 }
 
+/* There is no such scene, or no longer. */
+export const isGone = ({ connection, reason }: LinkState): boolean =>
+    connection === "refused" && /^(404|deleted|not_found)/.test(reason);
+
 export const NO_FRAME: FrameInfo = {
     state: "none",
     stale: false,

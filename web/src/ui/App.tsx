@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* The page: the scene that the address names, or the start page; and what lies over both. */
 import { Component, type ReactNode, useEffect } from "react";
+import { isGone } from "../model/stores.ts";
 import type { Editor } from "./editor.ts";
 import { EditorPage } from "./layout/Editor.tsx";
 import { useKeys } from "./layout/keys.ts";
 import { Notices } from "./layout/Notices.tsx";
 import { lazyPart, loadLazyParts } from "./lazy.tsx";
 import { goTo, useRoute } from "./route.ts";
-import { EditorContext, useView } from "./state.ts";
+import { EditorContext, useDocument, useLink, useView } from "./state.ts";
 import { t } from "./texts.ts";
 import { useTheme } from "./theme.ts";
 import { Button } from "./widgets/Button.tsx";
@@ -33,6 +34,8 @@ export function App({ editor }: { editor: Editor }) {
 function Pages({ editor }: { editor: Editor }) {
     const scene = useRoute();
     const popup = useView((view) => view.popup);
+    const gone = useLink(isGone);
+    const missing = useDocument(({ document }) => document === null) && gone;
     useTheme();
     useKeys(editor);
     useEffect(loadLazyParts, []);
@@ -47,10 +50,22 @@ function Pages({ editor }: { editor: Editor }) {
     }, [editor, popup]);
     return (
         <>
-            {scene === null ? <ScenesPage /> : <EditorPage />}
+            {scene === null ? <ScenesPage /> : missing ? <Missing /> : <EditorPage />}
             <Palettes />
             <Notices />
         </>
+    );
+}
+
+/* An address without a scene: nothing to use tools on. */
+function Missing() {
+    return (
+        <main className="crash">
+            <h1>{t("link.gone")}</h1>
+            <Button look="primary" onClick={() => goTo(null)}>
+                {t("bar.scenes")}
+            </Button>
+        </main>
     );
 }
 

@@ -2,14 +2,12 @@
 /* The state of the connection when there is something to say: the last picture stays, edits are
  * kept and sent later. */
 import { CloudOff } from "lucide-react";
+import { isGone } from "../../model/stores.ts";
 import { goTo } from "../route.ts";
 import { useDocument, useEditor, useLink } from "../state.ts";
 import { t } from "../texts.ts";
 import { Button } from "../widgets/Button.tsx";
 import "./view.css";
-
-/* Why a connection is refused when there is no such scene, or no longer. */
-const GONE = /^(404|deleted|not_found)/;
 
 const reasonText = (reason: string): string =>
     reason === "replaced" ? t("link.replaced") : t("link.refused", { reason });
@@ -19,7 +17,7 @@ export function Strip() {
     const connection = useLink((state) => state.connection);
     const reason = useLink((state) => state.reason);
     const waiting = useDocument((state) => state.waiting);
-    const gone = connection === "refused" && GONE.test(reason);
+    const gone = useLink(isGone);
     const text = gone
         ? t("link.gone")
         : connection === "refused"
