@@ -177,7 +177,7 @@ const HALF = {
 
 test('the badge tells how much the patch covers, and one edit keeps only the patch', async () => {
     const { id, page } = await open(HALF);
-    await told(page, /The patch covers (49|50|51) % of the implicit surface within the clip\./);
+    await told(page, /The patch covers (49|50|51)\u00a0% of the implicit surface within the clip\./);
     await page.getByRole('button', { name: 'Keep only the patch' }).click();
     const document = await documentWhen(stage, id, (d) => nodeIn(d, 'it').params.mode === 'sheet', 'the patch alone');
     const [cut] = document.root.children;
@@ -211,7 +211,7 @@ test('a root becomes what cuts it, in one edit', async () => {
 test('the dialog tells of the clip that the badge tells of', async () => {
     const { page } = await open(UMBRELLA);
     await told(page, /The patch covers/);
-    const [covers] = /The patch covers \d+ % /.exec(await page.locator('.surface-badge').innerText());
+    const [covers] = /The patch covers \d+\u00a0% /.exec(await page.locator('.surface-badge').innerText());
     await page.getByRole('button', { name: 'Change …' }).click();
     await page.getByRole('dialog').getByText(covers).waitFor();
     await closePage(page);

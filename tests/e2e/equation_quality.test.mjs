@@ -35,7 +35,7 @@ test('the badge follows the equation', async () => {
     await change(page, 'sin(3*x)*cos(2*y) = z');
     await says(page, /^Safe$/);
     await change(page, '(sin(3*x) - y)^2 = 0');
-    await says(page, /^Safe, \d\d % unresolved$/);
+    await says(page, /^Safe, \d\d\u00a0% unresolved$/);
     assert.equal(await badge(page).getAttribute('data-quality'), 'unresolved');
     page.expected = /compile/;
     await text(page).fill('x +');

@@ -210,6 +210,15 @@ test('an address without a scene says so, without tools, and leads to the scenes
     await page.getByRole('heading', { name: 'Your scenes' }).waitFor();
 });
 
+test('names of examples are whole on a phone', async () => {
+    page = await stage.page({ width: 390, height: 844, touch: true });
+    await page.locator('[data-example]').first().waitFor();
+    const cut = await page
+        .locator('[data-example] .card-name')
+        .evaluateAll((all) => all.filter((one) => one.scrollHeight > one.clientHeight + 1).map((one) => one.textContent));
+    assert.deepEqual(cut, []);
+});
+
 test('rename, duplicate, delete and take it back', async () => {
     const id = await stage.scene();
     page = await stage.page();

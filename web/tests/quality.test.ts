@@ -16,9 +16,9 @@ test("polynomials have a degree", () => {
 test("a share is told that was counted, and none else", () => {
     expect(said({ quality: "safe" }).words).toBe("Safe");
     const some = said({ quality: "safe", unresolved: 51 });
-    expect(some.words).toBe("Safe, 13 % unresolved");
+    expect(some.words).toBe("Safe, 13\u00a0% unresolved");
     expect(some.note).toMatch(/^51 of 400 rays /);
-    expect(said({ quality: "safe", unresolved: 1 }).words).toBe("Safe, below 1 % unresolved");
+    expect(said({ quality: "safe", unresolved: 1 }).words).toBe("Safe, below 1\u00a0% unresolved");
 });
 
 test("a pole and a jump have their place", () => {

@@ -552,6 +552,10 @@ export function fillText(text: string, values: Readonly<Record<string, string | 
     return text.replace(/\{(\w+)\}/g, (_, name: string) => String(values[name] ?? ""));
 }
 
+/* Numbers stay in the line of their units. */
+const UNIT_SPACE = /(?<=\d) (?=m?s\b|[KMG]iB|%)/g;
+export const withUnits = (text: string): string => text.replaceAll(UNIT_SPACE, "\u00a0");
+
 /* What a problem says; with the line, where it is about a text. */
 export function sentence({ line, message }: { line?: number; message: string }): string {
     return line === undefined ? message : t("code.at", { line, message });

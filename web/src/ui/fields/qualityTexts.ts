@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What the badge of an equation's quality says; loaded with it. */
 import type { Quality } from "../../link/qualityRest.ts";
-import { fillText } from "../texts.ts";
+import { fillText, withUnits } from "../texts.ts";
 
 const WORDS = {
     polynomial: "Exact polynomial of degree {degree}",
@@ -42,7 +42,7 @@ function kindOf({ quality, breaks, thin }: Quality): Kind {
 
 function shareOf({ unresolved, rays }: Quality): string {
     const percent = (100 * unresolved) / rays;
-    return percent < 1 ? "below 1 %" : `${Math.round(percent)} %`;
+    return withUnits(percent < 1 ? "below 1 %" : `${Math.round(percent)} %`);
 }
 
 function numberText(value: number): string {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What the fields of parametric surfaces say; loaded with them. */
 import type { Coverage } from "../../link/surfaceRest.ts";
-import { fillText } from "../texts.ts";
+import { fillText, withUnits } from "../texts.ts";
 
 const texts = {
     open: "From a parametric surface …",
@@ -40,5 +40,5 @@ export function surfaceText(
 
 /* As the server says it, as a sentence. */
 export function coverageSentence({ text }: Coverage): string {
-    return `${text.slice(0, 1).toUpperCase()}${text.slice(1)}.`;
+    return withUnits(`${text.slice(0, 1).toUpperCase()}${text.slice(1)}.`);
 }

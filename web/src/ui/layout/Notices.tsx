@@ -9,15 +9,12 @@ import { dismissNotice, type Notice, type NoticeAct } from "../../model/stores.t
 import { showPlace } from "../insertions.ts";
 import { placeTitle } from "../names.ts";
 import { useDocument, useEditor, useNotices } from "../state.ts";
-import { t } from "../texts.ts";
+import { t, withUnits } from "../texts.ts";
 import { Button, IconButton } from "../widgets/Button.tsx";
 import "../view/view.css";
 
 const MOST_SHOWN = 3;
 const STAY_MS = 6000;
-
-/* A number and its unit stay together. */
-const UNIT_SPACE = /(?<=\d) (?=m?s\b|[KMG]iB|%)/g;
 
 const icons = { info: Info, warning: TriangleAlert, error: CircleAlert };
 
@@ -92,7 +89,7 @@ const NoticeCard = memo(function NoticeCard({ notice }: { notice: Notice }) {
         <div className="notice popup" data-level={level} data-code={code}>
             <Icon size={16} aria-hidden="true" />
             <div className="notice-text">
-                {message.replaceAll(UNIT_SPACE, "\u00a0")}
+                {withUnits(message)}
                 {count > 1 && ` (${t("notices.times", { count })})`}
                 {place !== "" && <div className="notice-place">{where}</div>}
                 {(acts.length > 0 || known) && (

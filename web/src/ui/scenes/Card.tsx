@@ -32,7 +32,7 @@ export function ExampleCard({ example, onOpen }: ExampleProps) {
             <button type="button" className="card-open" onClick={onOpen}>
                 <Picture url={rest.exampleImageUrl(example.id)} />
                 <span className="card-text">
-                    <span className="card-name card-doc">{example.name || example.id}</span>
+                    <span className="card-name">{example.name || example.id}</span>
                 </span>
                 <span className="card-meta card-doc">{joined(example.description)}</span>
             </button>
