@@ -660,3 +660,17 @@ describe('adding', () => {
         );
     });
 });
+
+test('the bar stays where it is while the scene is renamed', async () => {
+    await open();
+    const add = page.locator('[data-command="node.add"]');
+    const before = await add.boundingBox();
+    await page.locator('.bar-name .button').click();
+    await page.getByRole('menuitem', { name: 'Rename' }).click();
+    const input = page.getByRole('textbox', { name: 'Name of the scene' });
+    await input.waitFor();
+    assert.deepEqual(await add.boundingBox(), before);
+    const named = await input.boundingBox();
+    await input.fill('A table with a longer name');
+    assert.ok((await input.boundingBox()).width > named.width + 50, 'it grows with the name');
+});

@@ -77,25 +77,27 @@ function Name() {
     };
     if (draft !== null) {
         return (
-            <input
-                className="bar-name-input"
-                aria-label={t("bar.rename")}
-                // biome-ignore lint/a11y/noAutofocus: the user has just asked to type here
-                autoFocus
-                maxLength={200}
-                value={draft}
-                onFocus={(event) => event.currentTarget.select()}
-                onChange={(event) => setDraft(event.target.value)}
-                onBlur={commit}
-                onKeyDown={(event) => {
-                    if (event.key === "Enter") {
-                        commit();
-                    } else if (event.key === "Escape") {
-                        event.stopPropagation();
-                        setDraft(null);
-                    }
-                }}
-            />
+            <label className="bar-name bar-name-edit" data-text={draft}>
+                <input
+                    className="bar-name-input"
+                    aria-label={t("bar.rename")}
+                    // biome-ignore lint/a11y/noAutofocus: the user has just asked to type here
+                    autoFocus
+                    maxLength={200}
+                    value={draft}
+                    onFocus={(event) => event.currentTarget.select()}
+                    onChange={(event) => setDraft(event.target.value)}
+                    onBlur={commit}
+                    onKeyDown={(event) => {
+                        if (event.key === "Enter") {
+                            commit();
+                        } else if (event.key === "Escape") {
+                            event.stopPropagation();
+                            setDraft(null);
+                        }
+                    }}
+                />
+            </label>
         );
     }
     return (
