@@ -34,8 +34,9 @@
       "width of an environment's picture; larger files are averaged to it")                        \
     X(PANORAMA_BYTES, "panorama_bytes", 268435456, "bytes",                                        \
       "pictures of environments kept ready that no scene uses now")                                \
-    X(CUBES_BYTES, "cubes_bytes", 268435456, "bytes",                                              \
-      "cubes of space and last pictures that the engine keeps for the next ones")                  \
+    X(CUBES_BYTES, "cubes_bytes", 1073741824, "bytes",                                             \
+      "cubes of space and last pictures that the engine keeps; at most an eighth of the memory "   \
+      "there is, and a quarter of what the render process may take")                               \
     X(READ_MS, "read_ms", 10000, "milliseconds", "reading the picture of an environment")          \
     X(OPEN_MS, "open_ms", 60000, "milliseconds",                                                   \
       "reading a document, or compiling a field, in the render process")                           \

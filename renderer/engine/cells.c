@@ -70,6 +70,13 @@ static float root_half(const struct frame_uniforms *frame)
     return ldexpf(1.0f, exponent);
 }
 
+static struct trunk_cube *trunk_of(const struct lanes *c, float half)
+{
+    struct trunk *trunk = c->cells->trunk;
+
+    return trunk ? trunk_root(trunk, (int)(c->cells - c->spaces), half) : NULL;
+}
+
 /* For a picture. Those of another one stay while the root is as large. */
 static void cells_begin(struct lanes *c)
 {
@@ -93,6 +100,7 @@ static void cells_begin(struct lanes *c)
                           .half = half,
                           .count = (uint32_t)c->program->count,
                           .parent = -1,
+                          .trunk = trunk_of(c, half),
                           .made = true,
                           .splits = c->program->count > CELL_SHORT,
                           .picture = c->picture};
@@ -170,8 +178,8 @@ static void make_tape(struct lanes *c, const struct cell *parent, int number, st
         return; /* it has its parent's */
     }
     tape_room(cells, parent->count);
-    const uint32_t *from = cells->tapes + parent->tape;
-    const uint16_t *drops = cells->drops + parent->drops;
+    const uint32_t *from = cell_tape(cells, parent);
+    const uint16_t *drops = cell_drops(cells, parent);
     uint32_t *const to = cells->tapes + cells->used;
     uint32_t *at = to + parent->count;
     for (uint32_t i = parent->count; i-- > 0;) {
@@ -214,9 +222,32 @@ static void make_tape(struct lanes *c, const struct cell *parent, int number, st
         *--at = kept;
     }
     child->tape = (uint32_t)cells->used;
+    child->words = NULL;
     child->count = (uint32_t)(to + parent->count - at);
     memmove(to, at, child->count * sizeof *at);
     cells->used += child->count;
+}
+
+/* The same, made by the first thread that comes there. */
+static void share_tape(struct lanes *c, const struct cell *parent, int number, struct cell *child)
+{
+    struct cells *cells = c->cells;
+    struct trunk_tape *shared = &parent->trunk->tapes[number];
+
+    if (trunk_take(cells->trunk, &shared->state)) {
+        const size_t used = cells->used;
+        make_tape(c, parent, number, child);
+        trunk_put(cells->trunk, shared, cells->used > used ? cells->tapes + child->tape : NULL,
+                  child->count);
+        cells->used = used;
+        trunk_tell(cells->trunk, &shared->state);
+    }
+    if (shared->words) {
+        child->words = shared->words;
+        child->count = shared->count;
+    }
+    child->trunk = shared->cube;
+    child->made = true;
 }
 
 /* Of the part of the field that a lane is to see; answers which of these see the same. */
@@ -249,11 +280,11 @@ static void look_at_children(struct lanes *c, int32_t index, float mask)
             }
         }
         machine_of(v, c, vb_all(true), centre);
-        v->drops = c->cells->drops + parent.drops;
+        v->drops = cell_drops(c->cells, &parent);
         v->child = first;
         v->dropping = 0;
         v->radius = LOOSE * 0.5f * parent.half * 1.7320508f;
-        run(v, c->cells->tapes + parent.tape, parent.count);
+        run(v, cell_tape(c->cells, &parent), parent.count);
         c->cells->at[index].dropping |= v->dropping;
         for (int k = 0; k < LANES && first + k < 8; k++) {
             c->cells->at[parent.children + first + k].distance = v->d[0][k];
@@ -263,20 +294,42 @@ static void look_at_children(struct lanes *c, int32_t index, float mask)
     c->field_estimates_0 = estimates;
 }
 
-static void cell_split(struct lanes *c, int32_t index, float mask)
+/* The same, by the first thread that comes there. */
+static void share_children(struct lanes *c, int32_t index, float mask)
 {
-    const int32_t children = (int32_t)c->cells->count;
-    const struct cell parent = c->cells->at[index];
+    struct trunk *trunk = c->cells->trunk;
+    struct cell *cell = &c->cells->at[index], *children = &c->cells->at[cell->children];
+    struct trunk_cube *shared = cell->trunk;
+
+    if (trunk_take(trunk, &shared->state)) {
+        trunk_drops(trunk, shared, cell->count);
+        look_at_children(c, index, mask);
+        shared->dropping = cell->dropping;
+        for (int k = 0; k < CUBE_CHILDREN; k++) {
+            shared->distances[k] = children[k].distance;
+        }
+        trunk_tell(trunk, &shared->state);
+    }
+    cell->dropping = shared->dropping;
+    for (int k = 0; k < CUBE_CHILDREN; k++) {
+        children[k].distance = shared->distances[k];
+    }
+}
+
+static void add_children(struct cells *cells, int32_t index)
+{
+    const int32_t children = (int32_t)cells->count;
+    const struct cell parent = cells->at[index];
     const float half = 0.5f * parent.half;
     const uint8_t bits = parent.bits - 1;
 
-    c->cells->at[index].children = children;
-    c->cells->at[index].drops = drops_add(c->cells, parent.count);
-    for (int k = 0; k < 8; k++) {
-        struct cell *child = cell_add(c->cells);
+    cells->at[index].children = children;
+    for (int k = 0; k < CUBE_CHILDREN; k++) {
+        struct cell *child = cell_add(cells);
         *child = (struct cell){.bits = bits,
                                .half = half,
                                .tape = parent.tape,
+                               .words = parent.words,
                                .count = parent.count,
                                .parent = index};
         for (int i = 0; i < 3; i++) {
@@ -284,9 +337,20 @@ static void cell_split(struct lanes *c, int32_t index, float mask)
             child->centre[i] = parent.centre[i] + (upper ? half : -half);
             child->corner[i] = parent.corner[i] + (upper << bits);
         }
-        c->cells->news[children + k] = c->cells->news[index]; /* it may be other than before that */
+        cells->news[children + k] = cells->news[index]; /* it may be other than before that */
     }
-    look_at_children(c, index, mask);
+}
+
+static void cell_split(struct lanes *c, int32_t index, float mask)
+{
+    add_children(c->cells, index);
+    struct cell *cell = &c->cells->at[index];
+    if (cell->trunk) {
+        share_children(c, index, mask);
+    } else {
+        cell->drops = drops_add(c->cells, cell->count);
+        look_at_children(c, index, mask);
+    }
 }
 
 /* Whether smaller cubes would be worth it. */
@@ -314,7 +378,7 @@ static struct cell *cell_ready(struct lanes *c, int32_t at)
 
     if (!cell->made) {
         const struct cell *parent = &c->cells->at[cell->parent];
-        make_tape(c, parent, (int)(at - parent->children), cell);
+        (parent->trunk ? share_tape : make_tape)(c, parent, (int)(at - parent->children), cell);
     }
     if (cell->picture != c->picture) {
         cell->splits = is_worth_splitting(c, cell);

@@ -3,12 +3,16 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "protocol/memory.h"
 
 enum { KEPT = 4 }; /* at most */
 /* Where more operations than so many, and a part of all, have changed, new cubes cost less. */
 enum { RENEWED_LEAST = 16, RENEWED_PART = 4 };
+/* Cubes take at most these parts of the memory there is, and of what the process may take. */
+enum { MEMORY_PART = 8, ALLOWED_PART = 4 };
 
 struct kept {
     struct cubes *cubes;            /* NULL: nothing is here */
@@ -26,14 +30,25 @@ struct engine_cubes *engine_cubes_create(void)
     return memory_alloc(1, sizeof(struct engine_cubes));
 }
 
-static void cubes_destroy(struct cubes *cubes)
+/* All but what threads share. */
+static void forget_own(struct cubes *cubes)
 {
-    for (int i = 0; cubes && i < ENGINE_THREADS; i++) {
+    for (int i = 0; i < ENGINE_THREADS; i++) {
         cells_finish(cubes->of[i]);
         noted_finish(&cubes->noted[i]);
+        cubes->noted[i] = (struct noted){0};
+        for (int k = 0; k < ENGINE_SPACES; k++) {
+            cubes->of[i][k] = (struct cells){.trunk = cubes->trunk};
+        }
     }
+    seen_finish(&cubes->seen);
+}
+
+static void cubes_destroy(struct cubes *cubes)
+{
     if (cubes) {
-        seen_finish(&cubes->seen);
+        forget_own(cubes);
+        trunk_destroy(cubes->trunk);
         free(cubes->params);
     }
     free(cubes);
@@ -86,6 +101,9 @@ static bool change(struct cubes *cubes, struct engine_program *program, const fl
     changes_of_materials(program, cubes->params, params, &materials);
     seen_repaint(&cubes->seen, &materials);
     if (count > 0) {
+        if (cubes->trunk) {
+            trunk_end(cubes->trunk);
+        }
         program->width->renew(program, cubes, params, changed);
     }
     free(changed);
@@ -114,6 +132,12 @@ static struct cubes *create(const struct engine_picture *picture)
 
     cubes->params = memory_alloc(numbers_bytes(picture->program), 1);
     memcpy(cubes->params, picture->params, numbers_bytes(picture->program));
+    if (picture->program->count >= TRUNK_TAPE) {
+        cubes->trunk = trunk_create();
+    }
+    for (int i = 0; i < ENGINE_THREADS * ENGINE_SPACES; i++) {
+        cubes->of[i / ENGINE_SPACES][i % ENGINE_SPACES].trunk = cubes->trunk;
+    }
     return cubes;
 }
 
@@ -145,7 +169,7 @@ struct cubes *cubes_take(struct engine_cubes *kept, const struct engine_picture 
 
 static size_t bytes_of(const struct cubes *cubes, const struct engine_program *program)
 {
-    size_t bytes = numbers_bytes(program) + seen_bytes(&cubes->seen);
+    size_t bytes = numbers_bytes(program) + seen_bytes(&cubes->seen) + trunk_bytes(cubes->trunk);
 
     for (int i = 0; i < ENGINE_THREADS; i++) {
         bytes += noted_bytes(&cubes->noted[i]);
@@ -158,16 +182,39 @@ static size_t bytes_of(const struct cubes *cubes, const struct engine_program *p
     return bytes;
 }
 
+/* For all that are kept: LIMIT_CUBES_BYTES, or less on a small machine. */
+static size_t most_bytes(void)
+{
+    const size_t memory = (size_t)sysconf(_SC_PHYS_PAGES) * (size_t)sysconf(_SC_PAGESIZE);
+    size_t most = LIMIT_CUBES_BYTES;
+    struct rlimit limit;
+
+    if (memory / MEMORY_PART < most) {
+        most = memory / MEMORY_PART;
+    }
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur / ALLOWED_PART < most) {
+        most = limit.rlim_cur / ALLOWED_PART;
+    }
+    return most;
+}
+
 void cubes_give(struct engine_cubes *kept, struct engine_program *program, struct cubes *cubes)
 {
+    const size_t most = most_bytes();
     size_t bytes = 0;
 
+    if (bytes_of(cubes, program) > most) {
+        seen_finish(&cubes->seen);
+    }
+    if (cubes->trunk && bytes_of(cubes, program) > most) {
+        forget_own(cubes);
+    }
     drop(&kept->kept[KEPT - 1]);
     memmove(&kept->kept[1], &kept->kept[0], (KEPT - 1) * sizeof kept->kept[0]);
     kept->kept[0] = (struct kept){cubes, engine_program_ref(program), bytes_of(cubes, program)};
     for (int i = 0; i < KEPT; i++) {
         bytes += kept->kept[i].bytes;
-        if (bytes > LIMIT_CUBES_BYTES) {
+        if (bytes > most) {
             drop(&kept->kept[i]);
         }
     }

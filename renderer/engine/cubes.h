@@ -10,6 +10,7 @@
 
 struct cubes {
     struct cells of[ENGINE_THREADS][ENGINE_SPACES]; /* each thread has its own */
+    struct trunk *trunk;                            /* what they share; NULL: nothing */
     struct noted noted[ENGINE_THREADS];             /* what its part of a picture depends on */
     float *params;                                  /* numbers that the cubes are valid for */
     uint32_t edit;                                  /* counts changes of `params` */

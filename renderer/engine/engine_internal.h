@@ -9,6 +9,7 @@
 #endif
 #include "renderer/code/machine.h"
 #include "renderer/field/shader.h"
+#include "trunk.h"
 
 struct cubes;
 struct extent;
@@ -58,6 +59,8 @@ struct cell {
     float centre[3], half;    /* the tape holds for LOOSE times this */
     uint32_t tape, count;     /* among the tapes */
     uint32_t drops;           /* what its children's tapes leave out, for each word of its own */
+    const uint32_t *words;    /* its tape, where threads share it, or NULL */
+    struct trunk_cube *trunk; /* what threads share of its children, with their drops, or NULL */
     uint32_t picture;         /* for which `splits` was decided, by its camera */
     /* Which squares of a part of a picture have used it (tile.c), a bit for each: by running its
      * tape, or as what bound_at() found. */
@@ -72,7 +75,8 @@ struct cell_news {
 };
 
 struct cells {
-    float grid; /* units of the grid in one of length, a power of two */
+    struct trunk *trunk; /* of all threads; NULL: they share nothing */
+    float grid;          /* units of the grid in one of length, a power of two */
     struct cell *at;
     struct cell_news *news; /* of each */
     uint32_t times;         /* counts how often all cubes were made anew */
@@ -83,6 +87,16 @@ struct cells {
     size_t drops_used, drops_room;
     int32_t last; /* the cube of the last question */
 };
+
+static inline const uint32_t *cell_tape(const struct cells *cells, const struct cell *cell)
+{
+    return cell->words ? cell->words : cells->tapes + cell->tape;
+}
+
+static inline uint16_t *cell_drops(const struct cells *cells, const struct cell *cell)
+{
+    return cell->trunk ? cell->trunk->drops : cells->drops + cell->drops;
+}
 
 /* A builtin function that users' code calls. The smallest ones are computed in place. */
 enum engine_direct { CALL_FUNCTION, CALL_MIN, CALL_MAX, CALL_ABS, CALL_CLAMP };

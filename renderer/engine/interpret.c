@@ -322,7 +322,7 @@ static vf run_in(struct lanes *c, const struct cell *cell, vb m, const vf *p)
 {
     struct machine *const v = machine_of(c->machine, c, m, p);
 
-    run(v, c->cells->tapes + cell->tape, cell->count);
+    run(v, cell_tape(c->cells, cell), cell->count);
     const vf d = v->d[0];
     if (c->noted) {
         note_value(c, cell, m, p, d);
@@ -417,7 +417,7 @@ static void spmd_surface(struct lanes *c, vb m, const vf *p, const vf *at, vf *o
         vb held;
         const struct cell *cell = cell_at(c, left, p, lanes_first(left), &held);
         machine_of(v, c, held, p)->mixtures = v->room;
-        run(v, c->cells->tapes + cell->tape, cell->count);
+        run(v, cell_tape(c->cells, cell), cell->count);
         select_all(held, v->room[0], whole, MIXTURE);
         if (c->noted) {
             note_run(c, cell, held, p);

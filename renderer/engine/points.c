@@ -67,7 +67,7 @@ static uint64_t look(struct lanes *c, const vf *p, float half, vf *out)
         const int32_t at = cube_at(c, &spots, lanes_first(m), half);
         const struct cell *cell = &c->cells->at[at];
         const vb held = cell_lanes(cell, m, p) | (lanes_number == lanes_first(m));
-        run(machine_of(c->machine, c, held, p), c->cells->tapes + cell->tape, cell->count);
+        run(machine_of(c->machine, c, held, p), cell_tape(c->cells, cell), cell->count);
         *out = vf_select(held, c->machine->d[0], *out);
         m &= ~held;
         ran += lanes_count(held) * cell->count;

@@ -33,7 +33,7 @@ static bool answers_differ(struct answers a, struct answers b)
 /* Who takes the second operand alone does not ask the operation's numbers. */
 static bool has_changed(const struct renewal *r, const struct cell *cell)
 {
-    const uint32_t *tape = r->c->cells->tapes + cell->tape;
+    const uint32_t *tape = cell_tape(r->c->cells, cell);
     bool any = false;
 
     for (uint32_t i = 0; i < cell->count && !any; i++) {
@@ -56,25 +56,28 @@ static bool make_again(struct renewal *r, int32_t at, struct past past, bool sam
     struct cells *cells = r->c->cells;
     struct cell *cell = &cells->at[at];
     const struct cell *parent = &cells->at[cell->parent];
-    const uint32_t tape = cell->tape, count = cell->count;
+    const struct cell before = *cell;
     const size_t used = cells->used;
 
     if (same) {
         return false;
     }
     cell->tape = parent->tape;
+    cell->words = parent->words;
     cell->count = parent->count;
     if (!cell->made) {
         return true;
     }
     make_tape(r->c, parent, (int)(at - parent->children), cell);
-    if (cell->count == count &&
-        memcmp(cells->tapes + cell->tape, cells->tapes + tape, count * sizeof *cells->tapes) == 0) {
+    if (cell->count == before.count && memcmp(cell_tape(cells, cell), cell_tape(cells, &before),
+                                              cell->count * sizeof *cells->tapes) == 0) {
         cells->used = used;
-        cell->tape = tape;
+        cell->tape = before.tape;
+        cell->words = before.words;
         return false;
     }
-    cells->wasted += tape == past.tape ? 0 : count; /* it had its parent's */
+    /* Not its parent's, nor one that is shared. */
+    cells->wasted += before.words || before.tape == past.tape ? 0 : before.count;
     return true;
 }
 
@@ -116,19 +119,30 @@ static void renew_cell(struct renewal *r, int32_t at, const struct cell *before,
     }
 }
 
+/* New ones, of its thread alone. */
+static void own_drops(struct cells *cells, struct cell *cell)
+{
+    cell->drops = drops_add(cells, cell->count);
+    cell->trunk = NULL;
+}
+
 /* Bits of children that leave out other operands than before, as in `drops`. */
 static uint16_t look_again(struct renewal *r, int32_t at)
 {
     struct cells *cells = r->c->cells;
     struct cell *cell = &cells->at[at];
     const size_t bytes = cell->count * sizeof *r->drops;
-    uint16_t *drops = cells->drops + cell->drops, changed = 0;
+    uint16_t changed = 0;
 
     if (cell->count > r->room) {
         r->room = 2 * cell->count;
         r->drops = memory_resize(r->drops, r->room, sizeof *r->drops);
     }
-    memcpy(r->drops, drops, bytes);
+    memcpy(r->drops, cell_drops(cells, cell), bytes);
+    if (cell->trunk) {
+        own_drops(cells, cell);
+    }
+    uint16_t *drops = cell_drops(cells, cell);
     memset(drops, 0, bytes);
     cell->dropping = 0;
     look_at_children(r->c, at, r->mask);
@@ -145,7 +159,7 @@ static void renew_children(struct renewal *r, int32_t at, struct past past)
 
     memcpy(before, cells->at + cell->children, sizeof before);
     if (cell->count > past.count) {
-        cell->drops = drops_add(cells, cell->count);
+        own_drops(cells, cell);
     }
     const uint16_t changed = look_again(r, at);
     for (int k = 0; k < 8; k++) {
@@ -171,6 +185,9 @@ static void renew_cells(struct renewal *r)
     cells->news[0].run = r->edit;
     if (cells->at[0].children) {
         renew_children(r, 0, (struct past){false, false, cells->at[0].tape, cells->at[0].count});
+    }
+    for (size_t i = 0; i < cells->count; i++) { /* what is shared was of other numbers */
+        cells->at[i].trunk = cells->at[i].children ? cells->at[i].trunk : NULL;
     }
 }
 
