@@ -34,7 +34,8 @@ static bool is_same_value(struct lanes *c, const struct noted_value *value, uint
         c->field_mask_0 = vf_all(value->mask);
         const vf now = spmd_map(c, m, p);
         for (int lane = 0; lane < LANES; lane++) {
-            same = same && (!m[lane] || memcmp(&now[lane], &d[lane], sizeof(float)) == 0);
+            const float here = now[lane], noted = d[lane];
+            same = same && (!m[lane] || memcmp(&here, &noted, sizeof here) == 0);
         }
     }
     return same;

@@ -122,21 +122,20 @@ static struct bounds fill_cut(const struct field_call *call, double scale,
 
 /* The head of its numbers. `thickness`: in parts of the extent; -1: solid. */
 static void fill_form(const struct field_call *call, const double *numbers, double thickness,
-                      int degree, double out[4 * POLYNOMIAL_HEAD])
+                      int degree, int count, double out[4 * POLYNOMIAL_HEAD])
 {
-    const double head[4 * POLYNOMIAL_HEAD] = {
-        call->size[0] / 2,
-        call->size[1] / 2,
-        call->size[2] / 2,
-        call->extent,
-        call->form.ball ? numbers[3] : 0,
-        thickness,
-        degree,
-        polynomial_rest_rows(degree),
-        POLYNOMIAL_ESTIMATE,
-        EQUATION_REACH,
-        fmax(thickness / 16, 0),
-        degree < POLYNOMIAL_FINE ? 0 : polynomial_coefficient_rows(degree)};
+    const double head[4 * POLYNOMIAL_HEAD] = {call->size[0] / 2,
+                                              call->size[1] / 2,
+                                              call->size[2] / 2,
+                                              call->extent,
+                                              call->form.ball ? numbers[3] : 0,
+                                              thickness,
+                                              degree,
+                                              polynomial_rest_rows(degree),
+                                              POLYNOMIAL_ESTIMATE,
+                                              EQUATION_REACH,
+                                              fmax(thickness / 16, 0),
+                                              count};
 
     memcpy(out, head, sizeof head);
 }
@@ -189,10 +188,10 @@ static struct result emit_polynomial(struct builder *b, const struct node *node,
     const double thickness = call->form.sheet ? declared[4] / call->extent
                              : is_square      ? POLYNOMIAL_THIN
                                               : -1;
-    fill_form(call, declared, thickness, degree, numbers);
     equation_expand(equation, declared + LETTERS, call->extent, degree, c);
-    polynomial_write(degree, c, numbers + (size_t)(4 * POLYNOMIAL_HEAD));
-    builder_add_trips(b, (uint64_t)polynomial_trips(degree));
+    const int count = polynomial_write(degree, c, numbers + (size_t)(4 * POLYNOMIAL_HEAD));
+    fill_form(call, declared, thickness, degree, count, numbers);
+    builder_add_trips(b, (uint64_t)polynomial_trips(degree, count));
     emit_numbers(b, node, frame, slot, number, &sdf_polynomial, FIELD_POLYNOMIAL, cut, numbers,
                  rows);
     free(numbers);

@@ -4,8 +4,13 @@
 #include "field_mask.glsl"
 #include "params.glsl"
 
-/* In parts of the extent: so near to a root its value needs more digits (POLYNOMIAL_FINE). */
+/* In parts of the extent: so near to a root its value needs more digits, from this degree on. */
 #define POLYNOMIAL_NEAR 0.25
+#define POLYNOMIAL_FINE 16.0
+
+/* enum polynomial_end. */
+#define POLYNOMIAL_GOES_ON 0.0
+#define POLYNOMIAL_ENDS_Y 1.0
 
 /* No operation is made another: what they lose is computed. Before GLSL 4 nothing says so. */
 #ifndef PRECISE
@@ -15,49 +20,40 @@
 /* Around p up to the third order: (value, bounds of the first, second and third order), and the
  * second order along the gradient. Series in the ways along x, y and z are cut at that order: `s`
  * in z, `r` in y and z, `a` in all. */
-vec4 polynomial_orders(vec3 p, int at, int degree, out float along)
+vec4 polynomial_orders(vec3 p, int at, int count, out float along)
 {
-    vec4 a0 = vec4(0.0), r0, s, c;
-    vec3 a1 = vec3(0.0), a4 = vec3(0.0), r1;
-    vec2 a2 = vec2(0.0), a5 = vec2(0.0), a7 = vec2(0.0), r2;
-    float a3 = 0.0, a6 = 0.0, a8 = 0.0, a9 = 0.0, r3;
-    for (int i = 0; i <= degree; i++) {
-        int rows = int(P_FROM(at).x);
-        at++;
-        r0 = vec4(0.0);
-        r1 = vec3(0.0);
-        r2 = vec2(0.0);
-        r3 = 0.0;
-        for (int j = 0; j < rows; j++) {
-            c = P_FROM(at);
-            at++;
-            int more = int(c.x);
-            s = vec4(c.y, 0.0, 0.0, 0.0);
-            s = s * p.z + vec4(c.z, s.xyz);
-            s = s * p.z + vec4(c.w, s.xyz);
-            for (int k = 0; k < more; k++) {
-                c = P_FROM(at);
-                at++;
-                s = s * p.z + vec4(c.x, s.xyz);
-                s = s * p.z + vec4(c.y, s.xyz);
-                s = s * p.z + vec4(c.z, s.xyz);
-                s = s * p.z + vec4(c.w, s.xyz);
-            }
+    vec4 a0 = vec4(0.0), r0 = vec4(0.0), s = vec4(0.0);
+    vec3 a1 = vec3(0.0), a4 = vec3(0.0), r1 = vec3(0.0);
+    vec2 a2 = vec2(0.0), a5 = vec2(0.0), a7 = vec2(0.0), r2 = vec2(0.0);
+    float a3 = 0.0, a6 = 0.0, a8 = 0.0, a9 = 0.0, r3 = 0.0;
+    for (int i = 0; i < count; i++) {
+        vec4 c = P_FROM(at + i);
+        s = s * p.z + vec4(c.y, s.xyz);
+        s = s * p.z + vec4(c.z, s.xyz);
+        s = s * p.z + vec4(c.w, s.xyz);
+        if (c.x > POLYNOMIAL_GOES_ON) {
             r3 = r3 * p.y + r2.x;
             r2 = r2 * p.y + r1.xy;
             r1 = r1 * p.y + r0.xyz;
             r0 = r0 * p.y + s;
+            s = vec4(0.0);
         }
-        a9 = a9 * p.x + a7.x;
-        a8 = a8 * p.x + a5.x;
-        a7 = a7 * p.x + a4.xy;
-        a6 = a6 * p.x + a2.x;
-        a5 = a5 * p.x + a1.xy;
-        a4 = a4 * p.x + a0.xyz;
-        a3 = a3 * p.x + r3;
-        a2 = a2 * p.x + r2;
-        a1 = a1 * p.x + r1;
-        a0 = a0 * p.x + r0;
+        if (c.x > POLYNOMIAL_ENDS_Y) {
+            a9 = a9 * p.x + a7.x;
+            a8 = a8 * p.x + a5.x;
+            a7 = a7 * p.x + a4.xy;
+            a6 = a6 * p.x + a2.x;
+            a5 = a5 * p.x + a1.xy;
+            a4 = a4 * p.x + a0.xyz;
+            a3 = a3 * p.x + r3;
+            a2 = a2 * p.x + r2;
+            a1 = a1 * p.x + r1;
+            a0 = a0 * p.x + r0;
+            r0 = vec4(0.0);
+            r1 = vec3(0.0);
+            r2 = vec2(0.0);
+            r3 = 0.0;
+        }
     }
     vec3 first = vec3(a4.x, a1.x, a0.y);
     vec3 even = vec3(a7.x, a2.x, a0.z), odd = vec3(a5.x, a4.y, a1.y);
@@ -88,33 +84,24 @@ vec2 polynomial_halves(float x)
     return vec2(high, x - high);
 }
 
-/* The value alone, in twice the digits; `lows` rows behind a coefficient stands what it lacks. */
-float polynomial_fine(vec3 p, int at, int lows, int degree)
+/* The value alone, in twice the digits; `count` rows behind a coefficient stands what it lacks. */
+float polynomial_fine(vec3 p, int at, int count)
 {
     vec2 x = polynomial_halves(p.x), y = polynomial_halves(p.y), z = polynomial_halves(p.z);
-    vec2 a = vec2(0.0), r, s;
-    for (int i = 0; i <= degree; i++) {
-        int rows = int(P_FROM(at).x);
-        at++;
-        r = vec2(0.0);
-        for (int j = 0; j < rows; j++) {
-            vec4 c = P_FROM(at), low = P_FROM(at + lows);
-            at++;
-            int more = int(c.x);
-            s = polynomial_step(vec2(c.y, low.y), z, c.z, low.z);
-            s = polynomial_step(s, z, c.w, low.w);
-            for (int k = 0; k < more; k++) {
-                c = P_FROM(at);
-                low = P_FROM(at + lows);
-                at++;
-                s = polynomial_step(s, z, c.x, low.x);
-                s = polynomial_step(s, z, c.y, low.y);
-                s = polynomial_step(s, z, c.z, low.z);
-                s = polynomial_step(s, z, c.w, low.w);
-            }
+    vec2 a = vec2(0.0), r = vec2(0.0), s = vec2(0.0);
+    for (int i = 0; i < count; i++) {
+        vec4 c = P_FROM(at + i), low = P_FROM(at + count + i);
+        s = polynomial_step(s, z, c.y, low.y);
+        s = polynomial_step(s, z, c.z, low.z);
+        s = polynomial_step(s, z, c.w, low.w);
+        if (c.x > POLYNOMIAL_GOES_ON) {
             r = polynomial_step(r, y, s.x, s.y);
+            s = vec2(0.0);
         }
-        a = polynomial_step(a, x, r.x, r.y);
+        if (c.x > POLYNOMIAL_ENDS_Y) {
+            a = polynomial_step(a, x, r.x, r.y);
+            r = vec2(0.0);
+        }
     }
     return a.x + a.y;
 }
@@ -178,12 +165,12 @@ float polynomial_laguerre(float f, float slope, float bend, float degree)
 float polynomial_within(vec3 p, int at, float more)
 {
     vec4 form = P_FROM(at + 1), steps = P_FROM(at + 2);
-    int count = int(form.w), rest = at + 3;
+    int count = int(form.w), rows = int(steps.w), rest = at + 3;
     float along;
-    vec4 orders = polynomial_orders(p, rest + count, int(form.z), along);
+    vec4 orders = polynomial_orders(p, rest + count, rows, along);
     vec3 b = max(orders.yzw, 1e-18);
-    if (steps.w > 0.0 && abs(orders.x) < POLYNOMIAL_NEAR * b.x) {
-        orders.x = polynomial_fine(p, rest + count, int(steps.w), int(form.z));
+    if (form.z >= POLYNOMIAL_FINE && abs(orders.x) < POLYNOMIAL_NEAR * b.x) {
+        orders.x = polynomial_fine(p, rest + count, rows);
     }
     float f = abs(orders.x), fourth = 0.0, radius = length(p);
     float limit = polynomial_distance(f, b, 0.0, steps.y), d = limit;

@@ -13,18 +13,19 @@ int polynomial_rest_rows(int degree)
     return degree > 3 ? degree / 4 : 0;
 }
 
-static int further_rows(int length)
+/* Of a power of x and one of y. */
+static int series_rows(int length)
 {
-    return length / 4;
+    return length > 3 ? (length + 2) / 3 : 1;
 }
 
-int polynomial_coefficient_rows(int degree)
+static int coefficient_rows(int degree)
 {
-    int rows = degree + 1;
+    int rows = 0;
 
     for (int i = 0; i <= degree; i++) {
         for (int j = 0; j <= degree - i; j++) {
-            rows += 1 + further_rows(degree - i - j + 1);
+            rows += series_rows(degree - i - j + 1);
         }
     }
     return rows;
@@ -32,14 +33,16 @@ int polynomial_coefficient_rows(int degree)
 
 size_t polynomial_rows(int degree)
 {
-    const size_t rows = (size_t)polynomial_coefficient_rows(degree);
+    const size_t rows = (size_t)coefficient_rows(degree);
 
     return (size_t)polynomial_rest_rows(degree) + (degree < POLYNOMIAL_FINE ? rows : 2 * rows);
 }
 
-int polynomial_trips(int degree)
+int polynomial_trips(int degree, int count)
 {
-    return (int)polynomial_rows(degree) + 2 * polynomial_rest_rows(degree) + 13;
+    const int loops = degree < POLYNOMIAL_FINE ? 1 : 2, within = 3 + 3 + 3 + 4;
+
+    return loops * (count + 1) + 2 * (polynomial_rest_rows(degree) + 1) + within;
 }
 
 static double factorial(int n)
@@ -65,23 +68,26 @@ static void norms(int degree, const double *c, double *out)
 }
 
 /* The coefficients of one power of x and one of y. Returns what follows. */
-static double *write_row(const double *c, int length, double *out)
+static double *write_row(const double *c, int length, enum polynomial_end end, double *out)
 {
     while (length > 0 && c[length - 1] == 0) {
         length--;
     }
-    const int further = further_rows(length);
-    out[0] = further;
-    for (int i = 0; i < 3 + 4 * further; i++) {
-        const int power = 3 + 4 * further - 1 - i;
-        out[1 + i] = power < length ? c[power] : 0;
+    const int rows = series_rows(length);
+    for (int row = 0; row < rows; row++, out += 4) {
+        out[0] = row < rows - 1 ? POLYNOMIAL_GOES_ON : end;
+        for (int i = 0; i < 3; i++) {
+            const int power = 3 * (rows - row) - 1 - i;
+            out[1 + i] = power < length ? c[power] : 0;
+        }
     }
-    return out + 4 + (size_t)(4 * further);
+    return out;
 }
 
+/* Of a power of x the highest power of y; 0 where there is none. */
 static int highest(const double *c, int degree, int i)
 {
-    for (int j = degree - i; j >= 0; j--) {
+    for (int j = degree - i; j > 0; j--) {
         const double *row = c + polynomial_at(degree, i, j);
         for (int k = 0; k <= degree - i - j; k++) {
             if (row[k] != 0) {
@@ -89,10 +95,10 @@ static int highest(const double *c, int degree, int i)
             }
         }
     }
-    return -1;
+    return 0;
 }
 
-void polynomial_write(int degree, const double *c, double *out)
+int polynomial_write(int degree, const double *c, double *out)
 {
     double own[POLYNOMIAL_DEGREE_MAX + 1];
     const int rest = 4 * polynomial_rest_rows(degree);
@@ -103,19 +109,19 @@ void polynomial_write(int degree, const double *c, double *out)
         out[rest - 1 - (m - 4)] = own[m] * m * (m - 1) * (m - 2) * (m - 3) / 24;
     }
     out += rest;
-    double *lows = out + (size_t)(4 * polynomial_coefficient_rows(degree));
-    const double *begin = out;
+    double *const begin = out;
     for (int i = degree; i >= 0; i--) {
-        const int most = highest(c, degree, i);
-        out[0] = most + 1;
-        out += 4;
-        for (int j = most; j >= 0; j--) {
-            out = write_row(c + polynomial_at(degree, i, j), degree - i - j + 1, out);
+        for (int j = highest(c, degree, i); j >= 0; j--) {
+            const double *row = c + polynomial_at(degree, i, j);
+            out = write_row(row, degree - i - j + 1, j > 0 ? POLYNOMIAL_ENDS_Y : POLYNOMIAL_ENDS_X,
+                            out);
         }
     }
-    for (const double *at = begin; degree >= POLYNOMIAL_FINE && at < out; at++) {
-        *lows++ = *at - (double)(float)*at;
+    const size_t numbers = (size_t)(out - begin);
+    for (size_t i = 0; degree >= POLYNOMIAL_FINE && i < numbers; i++) {
+        out[i] = begin[i] - (double)(float)begin[i];
     }
+    return (int)(numbers / 4);
 }
 
 /* --- evaluation --- */
@@ -159,24 +165,22 @@ static void step_x(double a[SERIES], double x, double r[ORDERS][ORDERS])
 }
 
 /* The value, and bounds of three orders. */
-static void find_orders(const double p[3], const double *n, int degree, double out[ORDERS])
+static void find_orders(const double p[3], const double *n, int count, double out[ORDERS])
 {
-    double a[SERIES] = {0};
+    double a[SERIES] = {0}, r[ORDERS][ORDERS] = {{0}}, s[ORDERS] = {0};
 
-    for (int i = 0; i <= degree; i++) {
-        double r[ORDERS][ORDERS] = {{0}};
-        const int rows = (int)n[0];
-        n += 4;
-        for (int j = 0; j < rows; j++) {
-            double s[ORDERS] = {0};
-            const int length = 3 + 4 * (int)n[0];
-            n++;
-            for (int k = 0; k < length; k++) {
-                step_z(s, p[2], *n++);
-            }
-            step_y(r, p[1], s);
+    for (int i = 0; i < count; i++, n += 4) {
+        for (int k = 1; k <= 3; k++) {
+            step_z(s, p[2], n[k]);
         }
-        step_x(a, p[0], r);
+        if (n[0] != POLYNOMIAL_GOES_ON) {
+            step_y(r, p[1], s);
+            memset(s, 0, sizeof s);
+        }
+        if (n[0] == POLYNOMIAL_ENDS_X) {
+            step_x(a, p[0], r);
+            memset(r, 0, sizeof r);
+        }
     }
     norms(ORDERS - 1, a, out);
     out[0] = a[0];
@@ -232,10 +236,10 @@ static double within(const double p[3], const double *n)
 {
     const double thickness = n[5], grain = n[10];
     const double *rest = n + (size_t)(4 * POLYNOMIAL_HEAD);
-    const int degree = (int)n[6], count = (int)n[7];
+    const int count = (int)n[7], rows = (int)n[11];
     double b[5] = {0};
 
-    find_orders(p, rest + (size_t)(4 * count), degree, b);
+    find_orders(p, rest + (size_t)(4 * count), rows, b);
     const double f = fabs(b[0]), radius = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
     for (int i = 1; i < ORDERS; i++) {
         b[i] = fmax(b[i], 1e-18);

@@ -27,11 +27,12 @@
 /* The numbers, four in each row:
  *     half of the box, extent of the clip
  *     radius of the ball (0: a box), thickness / extent (-1: solid), degree, rows for the rest
- *     POLYNOMIAL_ESTIMATE, longest step / extent, grain / extent, rows of coefficients or 0
+ *     POLYNOMIAL_ESTIMATE, longest step / extent, grain / extent, rows of coefficients
  *     the rest: C(m, 4) B_m, the highest m first, behind zeros
- *     for each power of x, the highest first: (powers of y, 0, 0, 0), and of each of them
- *     (further rows, c, c, c), (c, c, c, c), ...: coefficients of powers of z, behind zeros
+ *     for each power of x and of y, the highest first: (enum polynomial_end, c, c, c), ...:
+ *     coefficients of powers of z, behind zeros
  *     from POLYNOMIAL_FINE on: as many rows again, what floats lack of the coefficients.
+ * The rows are read in one loop: some drivers count the rounds of all loops.
  *
  * From degree POLYNOMIAL_FINE on the terms cancel by so much that floats draw other surfaces. Next
  * to the surface the value is then computed anew, with what each operation loses, as in twice the
@@ -42,6 +43,9 @@ enum {
     POLYNOMIAL_DEGREE_MAX = 18,
     POLYNOMIAL_COEFFICIENTS_MAX = 1330
 };
+
+/* Behind a row: the next goes on with the same power of y, has another one, or one of x. */
+enum polynomial_end { POLYNOMIAL_GOES_ON, POLYNOMIAL_ENDS_Y, POLYNOMIAL_ENDS_X };
 
 /* An estimate of the distance, where that is more than the bound, is Laguerre's step along the
  * gradient (Press et al., Numerical Recipes, 9.5), which is right next to the surface and where all
@@ -55,10 +59,9 @@ enum {
 
 /* Of terms that have at most this degree: rows of numbers. */
 size_t polynomial_rows(int degree);
-int polynomial_coefficient_rows(int degree);
 int polynomial_rest_rows(int degree);
-/* Loop iterations of one evaluation in GLSL, at most. */
-int polynomial_trips(int degree);
+/* Loop iterations of one evaluation in GLSL, with `count` rows of coefficients. */
+int polynomial_trips(int degree, int count);
 
 /* The first of the numbers of degree d that have i powers of x and j of y. */
 static inline size_t polynomial_at(int d, int i, int j)
@@ -68,8 +71,9 @@ static inline size_t polynomial_at(int d, int i, int j)
                     j * (e + 1) - j * (j - 1) / 2);
 }
 
-/* Writes what stands behind the head; `c` in the order of polynomial_at, the largest of them 1. */
-void polynomial_write(int degree, const double *c, double *out);
+/* Writes what stands behind the head; `c` in the order of polynomial_at, the largest of them 1.
+ * Returns the number of rows of coefficients. */
+int polynomial_write(int degree, const double *c, double *out);
 
 /* The row of such shapes; its numbers begin behind SDF_CUT_NUMBERS. */
 extern const struct sdf sdf_polynomial;

@@ -405,6 +405,25 @@ static void bounds_are_below_the_distance(void **state)
     }
 }
 
+/* llvmpipe ends a shader after 65,535 rounds of its loops, so many rounds leave few steps. */
+static void loops_leave_steps_enough(void **state)
+{
+    enum { ROUNDS = 65000, STEPS = 150 };
+    char text[TEXT];
+    (void)state;
+
+    for (int i = 0; i < FIELDS; i++) {
+        read_text(&fields[i], text);
+        struct scene *scene = scene_of(&fields[i], text, "=");
+        struct field *field = compile_field(scene);
+        if (ROUNDS / (1 + field->loop_trips) < STEPS) {
+            fail_msg("%s: %u rounds of loops at each step", fields[i].name, field->loop_trips);
+        }
+        field_unref(field);
+        scene_destroy(scene);
+    }
+}
+
 /* --- what is unresolved --- */
 
 static void keep(void *data, const struct equation_quality *quality)
@@ -452,7 +471,7 @@ static int stop(void **state)
 
 int main(void)
 {
-    static struct CMUnitTest tests[FIELDS + 2];
+    static struct CMUnitTest tests[FIELDS + 3];
     const char *asked = getenv("EQUATION_ROWS"), *only = getenv("EQUATION_FIELD");
     size_t n = 0;
 
@@ -462,6 +481,7 @@ int main(void)
                                          (void *)&fields[i]};
     }
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(bounds_are_below_the_distance);
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(loops_leave_steps_enough);
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(unresolved_rays_are_told);
     if (only) {
         cmocka_set_test_filter(only);
