@@ -31,7 +31,8 @@ const struct record_type surface_question_type = {
         {"y", PARAM_EQUATION, .doc = "The same."},
         {"z", PARAM_EQUATION, .doc = "The same."},
         {"s", PARAM_VEC2, .doc = "From where to where s goes. With both ranges the answer tells "
-                                 "how much of the implicit surface the patch covers."},
+                                 "how much of the implicit surface the patch covers, and has "
+                                 "the patch alone as a node."},
         {"t", PARAM_VEC2, .doc = "The same of t."},
         {"u", PARAM_VEC2, .doc = "The same of u."},
         {"v", PARAM_VEC2, .doc = "The same of v."},

@@ -66,6 +66,20 @@ test('the process may be killed at any moment: the search fails, the next one an
     await daemon.stop();
 });
 
+test('the patch alone is the root of a scene', async () => {
+    const daemon = await startDaemon({ driver: 'null' });
+    const { trimmed, equation } = await ask(daemon, 'POST', '/v1/implicitize', { x: 's', y: 't', z: 's*t', s: [-1, 1], t: [0, 1] });
+    await ask(daemon, 'PUT', '/v1/scenes/patch', { format: 'fieldcast/1', root: trimmed });
+    const { root } = await ask(daemon, 'GET', '/v1/scenes/patch');
+    assert.deepEqual(
+        [root.type, ...root.children.map(({ type }) => type)],
+        ['intersection', 'implicit', 'parametric'],
+    );
+    assert.equal(root.children[0].params.equation, equation);
+    assert.deepEqual(root.children[1].params.surface, { x: 's', y: 't', z: 's*t', s: [-1, 1], t: [0, 1] });
+    await daemon.stop();
+});
+
 // --- steps ---
 
 const bicubic = { x: 's^3*t^3+s-2t^2+s^2*t', y: '2s^3*t^3+s^3-t+s*t-t^3*s^2', z: 's^3*t^3-t^3+s^2+s*t^2' };
