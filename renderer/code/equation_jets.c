@@ -102,11 +102,53 @@ static void write_jet_operand(const struct equation_writer *w, uint16_t index)
             index, index);
 }
 
-static void write_jet_call(const struct equation_writer *w, const struct equation_node *node)
+/* An earlier sine or cosine of the same argument, or `index`. */
+static size_t find_turn(const struct equation_writer *w, size_t index)
 {
+    const uint16_t a = node_of(w, index)->args[0];
+
+    for (size_t i = 0; i < index; i++) {
+        const struct equation_node *node = node_of(w, i);
+        if (w->used[i] && node->op == EQUATION_CALL && node->args[0] == a &&
+            (node->which == EQUATION_SIN || node->which == EQUATION_COS)) {
+            return i;
+        }
+    }
+    return index;
+}
+
+/* Before the jet: the values and slopes of a sine or cosine, rI. Each one's slopes are the other's
+ * values, but for the sign. */
+static void write_turn(const struct equation_writer *w, size_t index)
+{
+    const struct equation_node *node = node_of(w, index);
+    const size_t other = find_turn(w, index);
+
+    if (node->op != EQUATION_CALL || (node->which != EQUATION_SIN && node->which != EQUATION_COS)) {
+        return;
+    }
+    if (other == index) {
+        fprintf(w->out, "vec4 r%zu = range_%s(j%d[2].xy);\n", index,
+                equation_functions[node->which].name, node->args[0]);
+    } else if (node->which == EQUATION_SIN) {
+        fprintf(w->out, "vec4 r%zu = vec4(-r%zu.w, -r%zu.z, r%zu.xy);\n", index, other, other,
+                other);
+    } else {
+        fprintf(w->out, "vec4 r%zu = vec4(r%zu.zw, -r%zu.y, -r%zu.x);\n", index, other, other,
+                other);
+    }
+}
+
+static void write_jet_call(const struct equation_writer *w, size_t index)
+{
+    const struct equation_node *node = node_of(w, index);
     const char *name = equation_functions[node->which].name;
     const uint16_t a = node->args[0];
 
+    if (node->which == EQUATION_SIN || node->which == EQUATION_COS) {
+        fprintf(w->out, "jet_of(j%d, r%zu)", a, index);
+        return;
+    }
     if (equation_rules[node->which].slope) {
         fprintf(w->out, "jet_of(j%d, range_%s(j%d[2].xy))", a, name, a);
         return;
@@ -127,6 +169,7 @@ void equation_write_jet(const struct equation_writer *w, size_t index)
         return;
     }
     write_jet_power_below(w, index);
+    write_turn(w, index);
     fprintf(w->out, "mat3 j%zu = ", index);
     switch ((enum equation_op)node->op) {
     case EQUATION_NEGATE:
@@ -145,7 +188,7 @@ void equation_write_jet(const struct equation_writer *w, size_t index)
         write_jet_power(w, node);
         break;
     case EQUATION_CALL:
-        write_jet_call(w, node);
+        write_jet_call(w, index);
         break;
     default:
         write_jet_sum(w, node);
