@@ -370,9 +370,9 @@ static void compute(const struct walk *w, const struct step *s)
 #undef EACH
 #undef PUT_EACH
 
-static void take_step(struct walk *w)
+/* One that leads elsewhere. */
+static void take_step(struct walk *w, const struct step *s)
 {
-    const struct step *s = &w->code->machine->steps[w->at];
     vf *const counter = w->frame + s->a;
 
     switch ((enum step_kind)s->kind) {
@@ -391,12 +391,8 @@ static void take_step(struct walk *w)
         w->depth++;
         w->at = s->out;
         break;
-    case STEP_RETURN:
-        come_back(w);
-        break;
     default:
-        compute(w, s);
-        w->at++;
+        come_back(w);
     }
 }
 
@@ -414,12 +410,15 @@ static void walk(struct lanes *c, vb m, const struct engine_code *code, vf *fram
 
     for (;;) {
         const struct step *s = &code->machine->steps[w.at];
-        if (!w.apart && s->kind < STEP_JUMP) { /* nobody waits, and nobody leaves */
+        if (s->kind >= STEP_JUMP) {
+            take_step(&w, s);
+        } else { /* the one call of a long function, which becomes a part of this one */
             compute(&w, s);
             w.at++;
-            continue;
+            if (!w.apart) { /* nobody waits, and nobody leaves */
+                continue;
+            }
         }
-        take_step(&w);
         if (!lanes_any(w.m)) {
             if (w.nearest == NOT_WAITING) {
                 return;
