@@ -10,9 +10,14 @@ async function choose(page, button, files) {
     await (await asked).setFiles(files);
 }
 
-/* Pictures are asked for when they come into sight. */
+/* Pictures are asked for when they come into sight. It lies so far below the bar that no button above it
+ * is covered in part. */
 async function bring(page, found) {
-    await found.evaluate((one) => one.scrollIntoView());
+    await found.evaluate((one) => {
+        const bar = document.querySelector('header').getBoundingClientRect().bottom;
+        one.style.scrollMarginTop = `${bar + 8}px`;
+        one.scrollIntoView();
+    });
     await page.waitForFunction(() =>
         [...document.querySelectorAll('[data-example] img')].every((one) => {
             const { top, bottom } = one.closest('.card-picture').getBoundingClientRect();
