@@ -90,6 +90,8 @@ describe('the gallery', () => {
         const [r2, , b2] = at(blue, x, 0.5);
         assert.ok(r1 > b1 + 40, `${r1} ${b1}`);
         assert.ok(b2 > r2 + 40, `${r2} ${b2}`);
+        const last = page.getByTestId('trial').locator('img');
+        await until(() => last.evaluate((one, width) => one.naturalWidth >= width, Math.floor(box.width)), 'a look in full size');
     });
 
     test('a pattern that is used twice is one material of one shader', async () => {

@@ -13,12 +13,16 @@ import "./view.css";
 
 /* What is passed over on the way to another is not drawn. */
 const REST_MS = 120;
-/* Of the view's pixels. */
-const SCALE = 0.6;
+/* One at once, of a part of the view's pixels, then one that can be looked at. */
+const SHOTS = [
+    { scale: 0.6, level: "interactive" },
+    { scale: 1, level: "still" },
+] as const;
 
 async function draw(
     editor: Editor,
     request: TrialRequest,
+    shot: (typeof SHOTS)[number],
     signal: AbortSignal,
 ): Promise<string | null> {
     const { document, schema } = editor.stores.document.getState();
@@ -30,14 +34,14 @@ async function draw(
     if (!tried.ok) {
         return null;
     }
-    const size = (length: number): number => Math.max(16, Math.round(length * SCALE));
+    const size = (length: number): number => Math.max(16, Math.round(length * shot.scale));
     return editor.rest.renderImage(
         printDocument(tried.document),
         {
             width: size(box.width),
             height: size(box.height),
             format: "jpg",
-            level: "interactive",
+            level: shot.level,
             camera: printCamera(editor.stores.camera.getState().camera),
             ...sectionMember(editor.stores.view.getState().section),
         },
@@ -55,9 +59,16 @@ export default function Trial() {
             return;
         }
         const stop = new AbortController();
+        const drawAll = async (): Promise<void> => {
+            for (const shot of SHOTS) {
+                const address = await draw(editor, request, shot, stop.signal);
+                if (address !== null) {
+                    setShown({ request, address });
+                }
+            }
+        };
         const timer = setTimeout(() => {
-            draw(editor, request, stop.signal).then(
-                (address) => address !== null && setShown({ request, address }),
+            drawAll().catch(
                 () => undefined /* another is asked for, or the server says why elsewhere */,
             );
         }, REST_MS);
