@@ -252,6 +252,20 @@ describe('wires', () => {
         assert.equal(await picture(page).count(), 1);
     });
 
+    test('cutters show themselves, or by a switch the result', async () => {
+        const cut = { id: 'cut', type: 'difference', children: [{ id: 'a', type: 'sphere' }, { id: 'b', type: 'box' }] };
+        await open({ document: { format: 'fieldcast/1', root: { id: 'root', type: 'union', children: [cut] } } });
+        const pictureOf = async (node) => {
+            const image = card(node).locator('.thumbnail img').first();
+            await image.waitFor();
+            return image.getAttribute('src');
+        };
+        assert.notEqual(await pictureOf('b'), await pictureOf('cut'));
+        await page.getByRole('button', { name: 'Cutters and modifiers show the result' }).click();
+        await until(async () => (await pictureOf('b')) === (await pictureOf('cut')), 'the result on the card of a cutter');
+        assert.notEqual(await pictureOf('a'), await pictureOf('cut'));
+    });
+
     test('the operands of a difference are put in order in three ways, with the same document', async () => {
         const cut = { id: 'cut', type: 'difference', children: [{ id: 'a', type: 'sphere' }, { id: 'b', type: 'box' }] };
         const document = { format: 'fieldcast/1', root: { id: 'root', type: 'union', children: [cut] } };

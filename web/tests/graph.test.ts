@@ -2,11 +2,20 @@
 /* The graph: where its cards stand, what is kept while values change, and what hands make of it. */
 import { expect, test } from "vitest";
 import { everyNode, type SceneDocument } from "../src/model/document.ts";
-import { CARD, type Derived, deriveGraph, neighbour, roomForPicture } from "../src/model/graph.ts";
+import { readDocument } from "../src/model/documentJson.ts";
+import {
+    CARD,
+    type Derived,
+    deriveGraph,
+    neighbour,
+    resultOf,
+    roomForPicture,
+} from "../src/model/graph.ts";
 import { layoutTree } from "../src/model/layout.ts";
 import { connect, insertBetween } from "../src/model/moves.ts";
 import type { Operation } from "../src/model/operation.ts";
 import { apply } from "../src/model/operations.ts";
+
 import { toWorld, type Vector } from "../src/model/transform.ts";
 import { type Held, type Over, outcomeOf } from "../src/model/wiring.ts";
 import { choose, random, randomOperation, SCHEMA, scene } from "./fixture.ts";
@@ -307,4 +316,43 @@ test("the edits of drops are one move each, and say so", () => {
     });
     expect(connect(document, ["stick"], "root", 2)).toBe(null);
     expect(insertBetween(SCHEMA, document, "neck", "hat")?.label).toBe("insert neck");
+});
+
+/* --- pictures --- */
+
+test("cutters and modifiers are shown by what they are a part of", () => {
+    const document = readDocument({
+        format: "fieldcast/1",
+        root: {
+            id: "root",
+            type: "union",
+            children: [
+                {
+                    id: "bowl",
+                    type: "difference",
+                    children: [
+                        { id: "body", type: "sphere" },
+                        {
+                            id: "slot",
+                            type: "extrude",
+                            children: [{ id: "disc", type: "circle" }],
+                        },
+                        { id: "tool", type: "union", children: [{ id: "peg", type: "box" }] },
+                    ],
+                },
+                { id: "tower", type: "extrude", children: [{ id: "base", type: "circle" }] },
+            ],
+        },
+    });
+    const shown = (id: string) => resultOf(document, SCHEMA, id);
+    expect(["slot", "tool"].map(shown)).toEqual(["bowl", "bowl"]);
+    expect(shown("tower")).toBe("root");
+    expect(["root", "bowl", "body", "disc", "peg", "base"].map(shown)).toEqual([
+        "root",
+        "bowl",
+        "body",
+        "disc",
+        "peg",
+        "base",
+    ]);
 });

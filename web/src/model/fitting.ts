@@ -5,7 +5,7 @@ import type { Addition } from "./add.ts";
 import type { Box } from "./camera.ts";
 import { isShown, pathTo, preorder, type SceneDocument } from "./document.ts";
 import type { Ground } from "./landing.ts";
-import { isContainer, placing, WAYS, type Way } from "./placing.ts";
+import { isContainer, placing, takesAway, WAYS, type Way } from "./placing.ts";
 import { isEndless, nodeType, type Schema } from "./schema.ts";
 import { transformOf, type Vector } from "./transform.ts";
 import { tidy } from "./units.ts";
@@ -14,8 +14,6 @@ import { tidy } from "./units.ts";
 const WIDTH = 0.8;
 const LIFT = 0.2;
 const UP: Vector = [0, 1, 0];
-
-const takesAway = (type: string | undefined): boolean => type?.endsWith("difference") === true;
 
 /* What is below what: nodes in whose box it depends where the new one begins. */
 export interface Seat {

@@ -3,13 +3,14 @@
  * from each card to its parent, and where they stand. Derived from the document, never stored. */
 import {
     modelNamed,
+    parentOf,
     preorder,
     type SceneDocument,
     type SceneNode,
     shownParams,
 } from "./document.ts";
 import { layoutTree, type Point } from "./layout.ts";
-import { isContainer } from "./placing.ts";
+import { isContainer, takesAway } from "./placing.ts";
 import { nodeType, type Param, type ParamType, type Schema } from "./schema.ts";
 
 /* CSS pixels at zoom 1; graph.css takes them from here. */
@@ -251,4 +252,17 @@ export function neighbour({ cards }: Graph, id: string, key: string): string | n
         default:
             return null;
     }
+}
+
+/* Whose picture a card has where cutters and modifiers show the result: that of the nearest one above
+ * that is neither. */
+export function resultOf(document: SceneDocument, schema: Schema, id: string): string {
+    const node = document.nodes.get(id);
+    const above = node && parentOf(document, node);
+    if (!above) {
+        return id;
+    }
+    const cuts = takesAway(above.type) && above.children.indexOf(id) > 0;
+    const changes = nodeType(schema, node.type)?.group === "modifier";
+    return cuts || changes ? resultOf(document, schema, above.id) : id;
 }

@@ -17,8 +17,9 @@ export const WAYS: Readonly<Record<Way, string>> = {
     carve: "smooth_difference",
 };
 
-/* Takes away, so that the first of its operands is what is left. */
-const takesAway = (way: Way): boolean => WAYS[way].endsWith("difference");
+/* Takes the other operands away from the first. */
+export const takesAway = (type: string | undefined): boolean =>
+    type?.endsWith("difference") === true;
 
 export const WAY_NAMES = Object.keys(WAYS) as readonly Way[];
 
@@ -82,7 +83,7 @@ function together(document: SceneDocument, active: SceneNode, parent: string, wa
         { op: "insert", into: `/nodes/${parent}`, before: active.id, value: { id, type, name } },
         moveTo(active.id, { into: id, before: null }),
     ];
-    const verb = takesAway(way) ? "Cuts" : "With";
+    const verb = takesAway(WAYS[way]) ? "Cuts" : "With";
     return {
         ops,
         spot: { into: id, before: null },
@@ -111,14 +112,14 @@ function besideOrTogether(
     /* What changes its children adds them up first. */
     const fits = wayOf(row) === way || (row?.group === "modifier" && way === "union");
     /* The first of a difference is what is cut; cutting a tool would make it smaller. */
-    const base = !takesAway(way) || parent.children[0] === active.id;
+    const base = !takesAway(WAYS[way]) || parent.children[0] === active.id;
     if (!fits || !base) {
         return together(document, active, parent.id, way);
     }
     return {
         ops: [],
         spot: { into: parent.id, before: siblingAfter(document, active.id) },
-        words: takesAway(way) ? `Cuts ${nodeLabel(active)}.` : `Beside ${nodeLabel(active)}.`,
+        words: takesAway(WAYS[way]) ? `Cuts ${nodeLabel(active)}.` : `Beside ${nodeLabel(active)}.`,
         above: parent.id,
         way,
     };
@@ -154,7 +155,7 @@ export function placing(
         return placing(document, schema, [only], added, way);
     }
     if (wayOf(row) === way) {
-        return inside(active, way, takesAway(way) ? "Cuts" : "Into");
+        return inside(active, way, takesAway(WAYS[way]) ? "Cuts" : "Into");
     }
     return besideOrTogether(document, schema, active, parent, way);
 }

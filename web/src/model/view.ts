@@ -56,6 +56,8 @@ export interface Preferences extends KeyChoices {
     readonly hintsDone: readonly string[];
     /* Rows of the tree have pictures of their nodes. */
     readonly thumbnails: boolean;
+    /* Cards of cutters and modifiers show what these are a part of. */
+    readonly results: boolean;
     /* Node types last added, newest first. */
     readonly recent: readonly string[];
     /* How what is added combines with what is selected: as it was last. */
@@ -93,6 +95,7 @@ export const PREFERENCES: Preferences = {
     keymap: "fieldcast",
     keys: {},
     thumbnails: true,
+    results: false,
     recent: [],
     way: "union",
     hands: HANDS,
@@ -305,6 +308,7 @@ export function readPreferences(text: string | null): Preferences {
             Object.entries(stored.keys ?? {}).filter(([, key]) => typeof key === "string"),
         ),
         thumbnails: stored.thumbnails !== false,
+        results: stored.results === true,
         recent: texts(stored.recent).slice(0, 12),
         way: one(stored.way, WAY_NAMES, PREFERENCES.way),
         hands: {

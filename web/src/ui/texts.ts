@@ -117,6 +117,7 @@ const texts = {
     "graph.free": "Free input of {name}",
     "graph.output": "Result of {name}",
     "graph.values": "Values of {name}",
+    "graph.results": "Cutters and modifiers show the result",
     "graph.fit": "Show the whole graph",
     "graph.nearer": "Enlarge",
     "graph.farther": "Reduce",

@@ -6,7 +6,7 @@ import { ChevronsLeft, ChevronsRight, Eye, EyeOff, Focus } from "lucide-react";
 import { memo, type ReactNode, useEffect, useRef, useState } from "react";
 import { isShown, isVisible, nodeLabel, parentOf } from "../../model/document.ts";
 import { setVisible } from "../../model/edits.ts";
-import { type Card, inputY, neighbour, roomForPicture } from "../../model/graph.ts";
+import { type Card, inputY, neighbour, resultOf, roomForPicture } from "../../model/graph.ts";
 import { nodeType } from "../../model/schema.ts";
 import { select } from "../../model/view.ts";
 import { Form } from "../form.tsx";
@@ -86,8 +86,16 @@ interface PictureProps {
     children: ReactNode;
 }
 
+function usePictured(id: string): string {
+    const results = useView((view) => view.preferences.results);
+    return useDocument(({ document, schema }) =>
+        results && document ? resultOf(document, schema, id) : id,
+    );
+}
+
 /* The result so far; larger while the pointer is on it, or where nothing else is on the card. */
-function Picture({ id, width, children }: PictureProps) {
+function Picture({ id: own, width, children }: PictureProps) {
+    const id = usePictured(own);
     const [large, setLarge] = useState(false);
     if (width !== null) {
         return (

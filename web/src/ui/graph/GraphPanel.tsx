@@ -3,9 +3,10 @@
  * right. React Flow moves the view and draws the cards that are in sight; what a hand does with
  * cards and wires is in reach.ts. */
 import { Background, ReactFlow, ReactFlowProvider, useReactFlow } from "@xyflow/react";
-import { Maximize, Minus, Plus, X } from "lucide-react";
+import { Maximize, Minus, Plus, SquaresSubtract, X } from "lucide-react";
 import { memo, useMemo, useRef, useState } from "react";
 import { CARD, type Derived, deriveGraph, type Graph } from "../../model/graph.ts";
+import { setPreferences } from "../../model/stores.ts";
 import { toggleDrawer } from "../../model/view.ts";
 import { NodeMenu } from "../scene/NodeMenu.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
@@ -58,6 +59,7 @@ const STEP = 1.3;
 const Head = memo(function Head({ graph }: { graph: Graph }) {
     const { stores } = useEditor();
     const count = useDocument(({ document }) => document?.nodes.size ?? 0);
+    const results = useView(({ preferences }) => preferences.results);
     const flow = useReactFlow();
     const zoom = useZoom(graph);
     return (
@@ -65,6 +67,14 @@ const Head = memo(function Head({ graph }: { graph: Graph }) {
             <h2>{t("graph.title")}</h2>
             <span className="section-count">{t("graph.count", { count })}</span>
             <span className="bar-space" />
+            <IconButton
+                title={t("graph.results")}
+                data-size="s"
+                aria-pressed={results}
+                onClick={() => setPreferences(stores.view, { results: !results })}
+            >
+                <SquaresSubtract size={15} />
+            </IconButton>
             <IconButton title={t("graph.farther")} data-size="s" onClick={() => zoom(1 / STEP)}>
                 <Minus size={15} />
             </IconButton>
