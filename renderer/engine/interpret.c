@@ -318,6 +318,10 @@ static struct machine *machine_of(struct machine *v, struct lanes *c, vb m, cons
 
 #include "cells.c"
 
+#include "notes.c"
+
+#include "bounds.c"
+
 static vf run_in(struct lanes *c, const struct cell *cell, vb m, const vf *p)
 {
     struct machine *const v = machine_of(c->machine, c, m, p);
