@@ -206,7 +206,7 @@ void cubes_give(struct engine_cubes *kept, struct engine_program *program, struc
     if (bytes_of(cubes, program) > most) {
         seen_finish(&cubes->seen);
     }
-    if (cubes->trunk && bytes_of(cubes, program) > most) {
+    if (cubes->trunk && !trunk_has_ended(cubes->trunk) && bytes_of(cubes, program) > most) {
         forget_own(cubes);
     }
     drop(&kept->kept[KEPT - 1]);

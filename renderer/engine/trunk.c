@@ -35,6 +35,11 @@ void trunk_end(struct trunk *trunk)
     trunk->ended = true;
 }
 
+bool trunk_has_ended(const struct trunk *trunk)
+{
+    return trunk->ended;
+}
+
 static void cube_destroy(struct trunk_cube *cube)
 {
     if (!cube) {

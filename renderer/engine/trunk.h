@@ -38,6 +38,7 @@ struct trunk;
 struct trunk *trunk_create(void);
 /* No cube that is begun from now on shares anything. Those that do stay as they are. */
 void trunk_end(struct trunk *trunk);
+bool trunk_has_ended(const struct trunk *trunk);
 void trunk_destroy(struct trunk *trunk); /* NULL is nothing */
 size_t trunk_bytes(const struct trunk *trunk);
 

@@ -93,7 +93,9 @@ static void roots_are_of_a_space_and_a_size(void **state)
     assert_ptr_equal(trunk_root(trunk, 0, 2), root);
     assert_ptr_not_equal(trunk_root(trunk, 1, 2), root);
     assert_ptr_not_equal(trunk_root(trunk, 0, 4), root);
+    assert_false(trunk_has_ended(trunk));
     trunk_end(trunk);
+    assert_true(trunk_has_ended(trunk));
     assert_null(trunk_root(trunk, 0, 4));
     trunk_destroy(trunk);
 }
