@@ -27,23 +27,26 @@ static vf cell_bound(const struct cell *cell, const vf *p)
     return cell->distance < 0.0f ? -bound : bound;
 }
 
-/* The largest cube that bounds the field at a lane's point, or else the smallest that it is in.
- * Which one it is depends on the point alone, so pictures do not depend on cubes. */
+/* Whether no cube in it is ever asked for a bound: where it is far, it gives one itself. */
+static bool cell_ends(const struct cell *cell)
+{
+    return !cell->splits || cell->count <= BOUND_TAPE || cell_is_far(cell);
+}
+
+/* The largest cube that bounds the field at a lane's point, or else the largest around it in which
+ * none does. Which one it is depends on the point alone, so pictures do not depend on cubes. */
 static const struct cell *bound_at(struct lanes *c, const struct spots *s, int lane)
 {
     struct cells *cells = c->cells;
-    int32_t at = cell_around(cells, s, lane);
+    int32_t at = cell_around(cells, cells->bound_last, s, lane);
 
-    while (at > 0 && !cells->at[cells->at[at].parent].splits) {
+    while (at > 0 && cell_ends(&cells->at[cells->at[at].parent])) {
         at = cells->at[at].parent;
     }
-    while (at > 0 && cell_is_far(&cells->at[cells->at[at].parent])) {
-        at = cells->at[at].parent;
-    }
-    while (s->in[lane] && !cell_bounds(cells, &cells->at[at]) && cell_ready(c, at)->splits) {
+    while (s->in[lane] && !cell_bounds(cells, &cells->at[at]) && !cell_ends(cell_ready(c, at))) {
         at = child_at(c, at, s, lane);
     }
-    cells->last = at;
+    cells->bound_last = at;
     if (c->noted) {
         note(c, at)->found |= c->noted->squares;
     }

@@ -11,7 +11,7 @@
 #define CELL_RUN 4             /* operations that take as long as it does to begin a tape */
 #define WORN_RUN 256           /* a cube that has run so many operations has smaller ones, */
 #define WORN_TAPE 24           /* if its tape is as long as this */
-#define CELL_LIMIT (1 << 18)   /* with more cubes, */
+#define CELL_LIMIT (1 << 20)   /* with more cubes, */
 #define TAPES_LIMIT (1 << 26)  /* or words of tapes, of all threads, these are made anew */
 #define WASTED_LIMIT (1 << 21) /* words of tapes that are not used, which are let be */
 #define BOUND_NEAR 2           /* a cube is far from surfaces that are so many of its halves away */
@@ -83,7 +83,7 @@ static void cells_begin(struct lanes *c)
     struct cells *cells = c->cells;
     const float half = root_half(c->frame);
 
-    cells->last = 0;
+    cells->last = cells->bound_last = 0;
     if (cells->count && cells->at[0].half == half) {
         cells->at[0].picture = c->picture;
         return;
@@ -211,9 +211,8 @@ static void make_tape(struct lanes *c, const struct cell *parent, int number, st
             point[in->point] = true;
         } else if (in->op == FIELD_LOOP_END) { /* whole */
             const struct operation *begin = in - in->length;
-            for (uint32_t k = 0; k < in->length; k++) {
-                *--at = from[i - k];
-            }
+            at -= in->length;
+            memcpy(at, from + i + 1 - in->length, in->length * sizeof *at);
             i -= in->length;
             kept = from[i];
             distance[begin->a] = false;
@@ -223,6 +222,7 @@ static void make_tape(struct lanes *c, const struct cell *parent, int number, st
     }
     child->tape = (uint32_t)cells->used;
     child->words = NULL;
+    child->owns = true;
     child->count = (uint32_t)(to + parent->count - at);
     memmove(to, at, child->count * sizeof *at);
     cells->used += child->count;
@@ -242,6 +242,7 @@ static void share_tape(struct lanes *c, const struct cell *parent, int number, s
         cells->used = used;
         trunk_tell(cells->trunk, &shared->state);
     }
+    child->owns = false;
     if (shared->words) {
         child->words = shared->words;
         child->count = shared->count;
@@ -419,10 +420,10 @@ static int32_t child_at(struct lanes *c, int32_t at, const struct spots *s, int 
                              (s->at[2][lane] >> bit & 1) << 2);
 }
 
-/* The smallest cube around the last one that a lane is in. */
-static int32_t cell_around(const struct cells *cells, const struct spots *s, int lane)
+/* The smallest cube around this one that a lane is in. */
+static int32_t cell_around(const struct cells *cells, int32_t last, const struct spots *s, int lane)
 {
-    int32_t at = s->in[lane] ? cells->last : 0;
+    int32_t at = s->in[lane] ? last : 0;
 
     while (at > 0 && !cell_has(&cells->at[at], s, lane)) {
         at = cells->at[at].parent;
@@ -444,7 +445,7 @@ static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, int lane, 
         return last;
     }
     const struct spots spots = spots_of(cells, p);
-    int32_t at = cell_around(cells, &spots, lane), best = at;
+    int32_t at = cell_around(cells, cells->last, &spots, lane), best = at;
     held = at > 0 ? cell_lanes(&cells->at[at], m, p) : m;
     /* What a tape takes, and how many lanes share it, of the best. */
     uint64_t least = cell_ready(c, at)->count + CELL_RUN, sharing = lanes_count(held);

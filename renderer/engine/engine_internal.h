@@ -50,6 +50,7 @@ struct cell {
     int32_t corner[3];        /* its least coordinates, in units of the grid */
     uint8_t bits;             /* its side is 2 to so many of these */
     bool made;                /* it has a tape of its own; else it uses its parent's */
+    bool owns;                /* its words among the tapes are no other cube's */
     bool splits;              /* its children are worth their cost; false without an own tape */
     bool worn;                /* the same, because its tape was used so often */
     uint16_t uses;            /* of its tape, while it is the smallest */
@@ -85,7 +86,7 @@ struct cells {
     size_t used, room, wasted; /* words; those of tapes that were made again */
     uint16_t *drops;
     size_t drops_used, drops_room;
-    int32_t last; /* the cube of the last question */
+    int32_t last, bound_last; /* the cubes of the last questions, for a tape and for a bound */
 };
 
 static inline const uint32_t *cell_tape(const struct cells *cells, const struct cell *cell)

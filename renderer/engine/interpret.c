@@ -364,14 +364,14 @@ static vf turn(struct lanes *c, vb m, const vf *p, vf distance, vf d)
     return vf_select(held, run_in(c, cell, held, p), d);
 }
 
-static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, vf distance, bool exact)
+static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, vf distance, vf enough)
 {
     vf d = vf_all(WAITING);
 
     if (c->program->count <= BOUND_TAPE) {
         return spmd_map(c, m, p);
     }
-    vb ask = exact ? vb_zero : m;
+    vb ask = m & (enough < (float)FIELD_FAR);
     const struct spots spots = spots_of(&c->spaces[0], p); /* the same in all spaces */
     while (lanes_any(ask)) {
         const int first = lanes_first(ask);
@@ -379,8 +379,10 @@ static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, vf distance, bool
         const struct cell *cell = bound_at(c, &spots, first);
         const vb held = cell_holds(cell, same, &spots) | (lanes_number == first);
         if (cell_bounds(c->cells, cell)) {
-            d = vf_select(held, cell_bound(cell, p), d);
-            m &= ~held;
+            const vf bound = cell_bound(cell, p);
+            const vb answered = held & (vf_abs(bound) >= enough);
+            d = vf_select(answered, bound, d);
+            m &= ~answered;
         }
         ask &= ~held;
     }

@@ -15,19 +15,19 @@ struct renewal {
 
 /* What bound_at() and is_worth_splitting() ask of a cube. */
 struct answers {
-    bool bounds, is_short, wide;
+    bool bounds, ends, is_short, wide;
 };
 
 static struct answers answers_of(const struct cell *cell, uint32_t parent_count)
 {
     return (struct answers){cell_is_far(cell) && parent_count > BOUND_TAPE,
-                            cell->count <= CELL_SHORT,
+                            cell->count <= BOUND_TAPE, cell->count <= CELL_SHORT,
                             cell->half > CELL_NEAR * fabsf(cell->distance)};
 }
 
 static bool answers_differ(struct answers a, struct answers b)
 {
-    return a.bounds != b.bounds || a.is_short != b.is_short || a.wide != b.wide;
+    return a.bounds != b.bounds || a.ends != b.ends || a.is_short != b.is_short || a.wide != b.wide;
 }
 
 /* Who takes the second operand alone does not ask the operation's numbers. */

@@ -97,7 +97,7 @@ Hit march(Ray ray, float start, float cone, int max_steps)
             corner = round == 3 ? east * around.x + north * around.y : corner;
             vec3 offset = round == 0 ? ray.direction * (t + ahead) : corner * e;
             vec3 p = base + offset;
-            float d = section_cut(field_bound(p, t + ahead, round > 0), p);
+            float d = section_cut(field_bound(p, t + ahead, round > 0 ? FAR : 0.0), p);
             if (field_waits(d)) {
                 i--;
                 continue;

@@ -129,7 +129,11 @@ float visible(Sight sight, int kind, int steps)
 
     for (int i = zero; i < steps; i++) {
         vec3 p = sight.origin + sight.direction * x;
-        float d = section_cut(field_bound(p, x, true), p);
+        /* From there on nothing gets darker. */
+        float enough = kind == SIGHT_OPEN    ? x
+                       : kind == SHADOW_HARD ? 0.0
+                                             : s.visibility * x / s.k;
+        float d = section_cut(field_bound(p, x, enough), p);
         if (field_waits(d)) {
             i--;
             continue;

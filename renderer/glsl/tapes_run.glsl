@@ -255,13 +255,17 @@ float map(vec3 p)
     return run(int(cube.row.y), int(cube.row.z), p, false, none);
 }
 
-float tapes_bound(vec3 p, bool exact)
+float tapes_bound(vec3 p, float enough)
 {
     Mixture none;
     float unit = tapes_unit();
-    Cube cube = cube_at(p, !exact, unit);
-    if (!exact && cube_bounds(cube, unit)) {
-        return cube_bound(cube, p, unit);
+    Cube cube = cube_at(p, enough < FAR, unit);
+    if (enough < FAR && cube_bounds(cube, unit)) {
+        float bound = cube_bound(cube, p, unit);
+        if (abs(bound) >= enough) {
+            return bound;
+        }
+        cube = cube_at(p, false, unit);
     }
     return run(int(cube.row.y), int(cube.row.z), p, false, none);
 }

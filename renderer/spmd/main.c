@@ -16,7 +16,7 @@
 /* What of the field is asked for is renderer/engine's; numbers lie in memory. */
 static const struct glsl_file own[] = {
     {"field_map.glsl", "float map(vec3 p);\n"},
-    {"field_bound.glsl", "float field_bound(vec3 p, float distance, bool exact);\n"
+    {"field_bound.glsl", "float field_bound(vec3 p, float distance, float enough);\n"
                          "bool field_waits(float d);\n"},
     {"field_surface.glsl", "#include \"surface.glsl\"\n"
                            "void surface(vec3 p, Shading at, out Surface s);\n"},
