@@ -98,25 +98,26 @@ static uint32_t *count_changes(const struct field *field, const float *before, c
     return counts;
 }
 
-/* The list of points of a shape, which lies behind the materials; empty: it has none. */
-static struct extent points_of(const struct operation *in, const struct node_type *type,
-                               const float *params)
+struct points_list changes_points_of(const struct engine_program *program, size_t index,
+                                     const float *params)
 {
+    const struct operation *in = &program->operations[index];
+    const struct node_type *type = program->kinds[in->kind].type;
     struct param_slot places[SDF_PARAMS_MAX];
 
     if (in->op != FIELD_SHAPE || !type) {
-        return (struct extent){0, 0};
+        return (struct points_list){0};
     }
     field_layout(type->record.params, FIELD_HEAD_NUMBERS, places);
     for (int i = 0; type->record.params[i].name; i++) {
         if (type->record.params[i].type == PARAM_POINTS) {
             const size_t vec4 = (size_t)in->params + FIELD_MATRIX_VEC4S + (size_t)places[i].vec4;
-            const float *place = params + 4 * vec4 + places[i].component;
-            const uint32_t first = (uint32_t)place[0], count = (uint32_t)place[1];
-            return (struct extent){first, first + (count + 1) / 2};
+            const size_t place = 4 * vec4 + (size_t)places[i].component;
+            const uint32_t first = (uint32_t)params[place], count = (uint32_t)params[place + 1];
+            return (struct points_list){place, {first, first + (count + 1) / 2}};
         }
     }
-    return (struct extent){0, 0};
+    return (struct points_list){0};
 }
 
 static uint32_t count_within(const uint32_t *counts, struct extent extent)
@@ -135,9 +136,8 @@ uint8_t *changes_of_operations(const struct engine_program *program, const float
 
     for (size_t i = 0; i < program->count; i++) {
         const struct operation *in = &program->operations[i];
-        const struct extent list = points_of(in, program->kinds[in->kind].type, after);
         const struct extent seen = {in->seen / 4, in->seen / 4 + (in->seen > 0)};
-        const uint32_t own = count_within(counts, list);
+        const uint32_t own = count_within(counts, changes_points_of(program, i, after).extent);
         points += own;
         changed[i] =
             own + count_within(counts, program->extents[i]) + count_within(counts, seen) > 0;
@@ -151,16 +151,21 @@ uint8_t *changes_of_operations(const struct engine_program *program, const float
     return changed;
 }
 
-void changes_of_materials(const struct engine_program *program, const float *before,
+bool changes_of_materials(const struct field *field, const float *before, const struct field *other,
                           const float *after, struct material_set *out)
 {
-    const struct field *field = program->field;
     const size_t stride = 4 * field->material_stride;
 
+    if (field->material_stride != other->material_stride ||
+        field->material_count != other->material_count) {
+        return false;
+    }
+    before += 4 * field->material_base;
+    after += 4 * other->material_base;
     for (size_t slot = 0; slot < field->material_count + 2; slot++) {
-        const size_t at = 4 * field->material_base + slot * stride;
-        if (memcmp(before + at, after + at, stride * sizeof *before) != 0) {
+        if (memcmp(before + slot * stride, after + slot * stride, stride * sizeof *before) != 0) {
             material_set_add(out, (unsigned)slot);
         }
     }
+    return true;
 }

@@ -21,6 +21,14 @@ struct extent {
     uint32_t first, end; /* vec4s; empty: it has none */
 };
 
+/* The list of points of a shape, which lies behind the materials. */
+struct points_list {
+    size_t place; /* the number that tells where it begins; 0: there is none */
+    struct extent extent;
+};
+struct points_list changes_points_of(const struct engine_program *program, size_t index,
+                                     const float *params);
+
 /* Finds the extents of all operations of a program, which owns them. */
 void changes_find_extents(struct engine_program *program);
 
@@ -28,8 +36,8 @@ void changes_find_extents(struct engine_program *program);
  * it. NULL: not known, because numbers have changed that belong to no operation. */
 uint8_t *changes_of_operations(const struct engine_program *program, const float *before,
                                const float *after);
-/* Adds the materials whose numbers differ. */
-void changes_of_materials(const struct engine_program *program, const float *before,
+/* Adds the materials of a field whose numbers differ in the other. False: they have other ones. */
+bool changes_of_materials(const struct field *field, const float *before, const struct field *other,
                           const float *after, struct material_set *out);
 
 #endif

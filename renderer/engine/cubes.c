@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "matches.h"
 #include "protocol/memory.h"
 
 enum { KEPT = 4 }; /* at most */
@@ -98,7 +99,7 @@ static bool change(struct cubes *cubes, struct engine_program *program, const fl
         return false;
     }
     cubes->edit++;
-    changes_of_materials(program, cubes->params, params, &materials);
+    changes_of_materials(program->field, cubes->params, program->field, params, &materials);
     seen_repaint(&cubes->seen, &materials);
     if (count > 0) {
         if (cubes->trunk) {
@@ -109,6 +110,73 @@ static bool change(struct cubes *cubes, struct engine_program *program, const fl
     free(changed);
     memcpy(cubes->params, params, numbers_bytes(program));
     return true;
+}
+
+/* --- another program --- */
+
+/* Whether so few operations are in one alone that they are of the same scene. */
+static bool are_near(size_t fresh, const struct engine_program *before,
+                     const struct engine_program *after)
+{
+    const size_t lost = before->count + fresh - after->count;
+
+    return fresh <= after->count / RENEWED_PART && lost <= before->count / RENEWED_PART;
+}
+
+/* In all tapes. Where all that stay have their indices, those that are gone may keep theirs: only
+ * tapes that are made again have them (renew.c). */
+static void rename_operations(struct cubes *cubes, const struct matches *matches)
+{
+    for (int i = 0; matches->moved && i < ENGINE_THREADS * ENGINE_SPACES; i++) {
+        struct cells *cells = &cubes->of[i / ENGINE_SPACES][i % ENGINE_SPACES];
+        matches_rename(matches, cells->tapes, cells->used);
+    }
+    if (matches->moved && cubes->trunk) {
+        trunk_rename(cubes->trunk, matches);
+    }
+}
+
+/* Squares of pictures stay where nothing in them has another number. */
+static void keep_seen(struct cubes *cubes, const struct engine_program *before,
+                      const struct engine_picture *picture, bool renumbered)
+{
+    struct material_set materials = {{0}};
+
+    if (!renumbered && changes_of_materials(before->field, cubes->params, picture->program->field,
+                                            picture->params, &materials)) {
+        seen_repaint(&cubes->seen, &materials);
+    } else {
+        seen_finish(&cubes->seen);
+    }
+}
+
+/* After an edit of more than numbers, where few operations are new. */
+static bool follow(struct kept *one, const struct engine_picture *picture)
+{
+    struct engine_program *program = picture->program;
+    const struct matches_side before = {one->program, one->cubes->params};
+    const struct matches_side after = {program, picture->params};
+    struct cubes *cubes = one->cubes;
+    struct matches matches;
+
+    if (one->program->width != program->width) {
+        return false;
+    }
+    matches_find(&before, &after, &matches);
+    const bool follows = are_near(matches.fresh, one->program, program);
+    if (follows) {
+        cubes->edit++;
+        keep_seen(cubes, one->program, picture, matches.renumbered);
+        rename_operations(cubes, &matches);
+        if (cubes->trunk) {
+            trunk_end(cubes->trunk);
+        }
+        program->width->renew(program, cubes, picture->params, matches.changed);
+        cubes->params = memory_resize(cubes->params, numbers_bytes(program), 1);
+        memcpy(cubes->params, picture->params, numbers_bytes(program));
+    }
+    matches_finish(&matches);
+    return follows;
 }
 
 /* --- those that are kept --- */
@@ -141,13 +209,12 @@ static struct cubes *create(const struct engine_picture *picture)
     return cubes;
 }
 
-struct cubes *cubes_take(struct engine_cubes *kept, const struct engine_picture *picture,
-                         uint32_t *out_picture)
+/* Those of this program that fit the picture best; NULL: there are none. */
+static struct kept *find_own(struct engine_cubes *kept, const struct engine_picture *picture)
 {
     struct kept *best = NULL;
     int most = 0;
 
-    *out_picture = ++kept->pictures;
     for (int i = 0; i < KEPT; i++) {
         const int value = value_of(&kept->kept[i], picture);
         if (value > most) {
@@ -155,9 +222,32 @@ struct cubes *cubes_take(struct engine_cubes *kept, const struct engine_picture 
             most = value;
         }
     }
+    return best;
+}
+
+static struct kept *find_followed(struct engine_cubes *kept, const struct engine_picture *picture)
+{
+    for (int i = 0; i < KEPT; i++) {
+        if (kept->kept[i].cubes && follow(&kept->kept[i], picture)) {
+            return &kept->kept[i];
+        }
+    }
+    return NULL;
+}
+
+static bool fits(const struct kept *one, const struct engine_picture *picture)
+{
+    return is_same(one, picture->params) || change(one->cubes, picture->program, picture->params);
+}
+
+struct cubes *cubes_take(struct engine_cubes *kept, const struct engine_picture *picture,
+                         uint32_t *out_picture)
+{
+    struct kept *best = find_own(kept, picture);
     const uint32_t edit = best ? best->cubes->edit : 0;
-    if (!best || !(is_same(best, picture->params) ||
-                   change(best->cubes, picture->program, picture->params))) {
+
+    *out_picture = ++kept->pictures;
+    if (best ? !fits(best, picture) : !(best = find_followed(kept, picture))) {
         return create(picture);
     }
     struct cubes *cubes = best->cubes;

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Cubes after an edit of numbers. A tape is right as long as the same operations matter in its
- * cube, so only what may matter elsewhere now is looked at again: from the root down, the children
- * of each cube whose tape holds an operation that has changed, or is another tape now. What is
- * below others stays as it is. Cubes become what they would be if they were made anew. */
+/* Cubes after an edit, of numbers or of more (matches.h). A tape is right as long as the same
+ * operations matter in its cube, so only what may matter elsewhere now is looked at again: from the
+ * root down, the children of each cube whose tape holds an operation that has changed, or is
+ * another tape now. What is below others stays as it is. Cubes become what they would be if they
+ * were made anew. */
+
+enum { GROWN = 4 }; /* a tape that becomes so many times as long: new cubes cost less */
 
 struct renewal {
     struct lanes *c;
@@ -46,12 +49,12 @@ static bool has_changed(const struct renewal *r, const struct cell *cell)
  * there by another way. */
 struct past {
     bool other, led;
-    uint32_t tape, count;
+    uint32_t count;
 };
 
 /* The cube's tape of its parent's; false: it is the one that it had. `same`: as far as that goes
  * by its parent. */
-static bool make_again(struct renewal *r, int32_t at, struct past past, bool same)
+static bool make_again(struct renewal *r, int32_t at, bool same)
 {
     struct cells *cells = r->c->cells;
     struct cell *cell = &cells->at[at];
@@ -65,6 +68,7 @@ static bool make_again(struct renewal *r, int32_t at, struct past past, bool sam
     cell->tape = parent->tape;
     cell->words = parent->words;
     cell->count = parent->count;
+    cell->owns = false;
     if (!cell->made) {
         return true;
     }
@@ -74,10 +78,18 @@ static bool make_again(struct renewal *r, int32_t at, struct past past, bool sam
         cells->used = used;
         cell->tape = before.tape;
         cell->words = before.words;
+        cell->owns = before.owns;
         return false;
     }
-    /* Not its parent's, nor one that is shared. */
-    cells->wasted += before.words || before.tape == past.tape ? 0 : before.count;
+    if (cell->owns && before.owns && cell->count < before.count) { /* in the same place */
+        memcpy(cells->tapes + before.tape, cells->tapes + cell->tape,
+               cell->count * sizeof *cells->tapes);
+        cells->used = used;
+        cell->tape = before.tape;
+        cells->wasted += before.count - cell->count;
+    } else {
+        cells->wasted += before.owns ? before.count : 0;
+    }
     return true;
 }
 
@@ -93,6 +105,18 @@ static void tell_below(struct renewal *r, int32_t at)
     }
 }
 
+/* All below a cube that will have new children. These are renewed no more: to squares that used
+ * them they have changed, whatever the edit. */
+static void forget_below(struct cells *cells, int32_t at)
+{
+    const int32_t children = cells->at[at].children;
+
+    for (int k = 0; children && k < 8; k++) {
+        cells->news[children + k] = (struct cell_news){UINT32_MAX, UINT32_MAX};
+        forget_below(cells, children + k);
+    }
+}
+
 static void renew_children(struct renewal *r, int32_t at, struct past past);
 
 /* `before`: as it was. `same`: its parent's tape and what it leaves out of that are. */
@@ -101,8 +125,7 @@ static void renew_cell(struct renewal *r, int32_t at, const struct cell *before,
 {
     struct cells *cells = r->c->cells;
     struct cell *cell = &cells->at[at];
-    const bool other = make_again(r, at, parent, same),
-               run = cell->made && (other || has_changed(r, cell));
+    const bool other = make_again(r, at, same), run = cell->made && (other || has_changed(r, cell));
     const struct answers now = answers_of(cell, cells->at[cell->parent].count);
     const bool led = parent.led || answers_differ(now, answers_of(before, parent.count));
 
@@ -112,8 +135,11 @@ static void renew_cell(struct renewal *r, int32_t at, const struct cell *before,
     if (led || (now.bounds && memcmp(&cell->distance, &before->distance, sizeof(float)) != 0)) {
         cells->news[at].found = r->edit;
     }
-    if (cell->children && run) {
-        renew_children(r, at, (struct past){other, led, before->tape, before->count});
+    if (cell->children && run && cell->count > GROWN * before->count) {
+        forget_below(cells, at);
+        cell->children = 0;
+    } else if (cell->children && run) {
+        renew_children(r, at, (struct past){other, led, before->count});
     } else if (cell->children && led) {
         tell_below(r, at);
     }
@@ -168,8 +194,68 @@ static void renew_children(struct renewal *r, int32_t at, struct past past)
     }
 }
 
-/* Those of one thread and one space. Where most tapes are no longer used, all are made anew when a
- * ray comes. */
+/* Room of tapes and drops with those alone that cubes have. */
+static void compact(struct cells *cells)
+{
+    const struct cells old = *cells;
+    uint32_t *before = memory_alloc(cells->count, sizeof *before);
+
+    cells->tapes = NULL;
+    cells->drops = NULL;
+    cells->used = cells->room = cells->wasted = cells->drops_used = cells->drops_room = 0;
+    for (size_t i = 0; i < cells->count; i++) { /* parents first */
+        struct cell *cell = &cells->at[i];
+        const struct cell *parent = cell->parent < 0 ? NULL : &cells->at[cell->parent];
+        before[i] = cell->tape;
+        if (parent && cell->tape == before[cell->parent] && cell->words == parent->words) {
+            cell->tape = parent->tape;
+        } else if (!cell->words) {
+            tape_room(cells, cell->count);
+            memcpy(cells->tapes + cells->used, old.tapes + cell->tape,
+                   cell->count * sizeof *cells->tapes);
+            cell->tape = (uint32_t)cells->used;
+            cell->owns = true;
+            cells->used += cell->count;
+        }
+        if (cell->children && !cell->trunk) {
+            const uint32_t drops = cell->drops;
+            cell->drops = drops_add(cells, cell->count);
+            memcpy(cells->drops + cell->drops, old.drops + drops,
+                   cell->count * sizeof *cells->drops);
+        }
+    }
+    free(before);
+    free(old.tapes);
+    free(old.drops);
+}
+
+/* The root of another program has the tape of all operations of it. Answers what it was. */
+static struct past renew_root(struct renewal *r)
+{
+    struct cells *cells = r->c->cells;
+    struct cell *root = &cells->at[0];
+    const size_t count = r->c->program->count;
+    struct past past = {.count = root->count};
+    const uint32_t *words = cell_tape(cells, root);
+
+    past.other = root->count != count;
+    for (size_t i = 0; i < count && !past.other; i++) {
+        past.other = words[i] != i;
+    }
+    if (past.other) {
+        tape_room(cells, count);
+        root->tape = (uint32_t)cells->used;
+        root->count = (uint32_t)count;
+        root->splits = count > CELL_SHORT;
+        for (size_t i = 0; i < count; i++) {
+            cells->tapes[cells->used++] = (uint32_t)i;
+        }
+        cells->wasted += past.count;
+    }
+    return past;
+}
+
+/* Those of one thread and one space. */
 static void renew_cells(struct renewal *r)
 {
     struct cells *cells = r->c->cells;
@@ -178,13 +264,12 @@ static void renew_cells(struct renewal *r)
         return;
     }
     if (cells->wasted > WASTED_LIMIT && 2 * cells->wasted > cells->used) {
-        cells->count = 0;
-        cells->times++;
-        return;
+        compact(cells);
     }
     cells->news[0].run = r->edit;
+    const struct past past = renew_root(r);
     if (cells->at[0].children) {
-        renew_children(r, 0, (struct past){false, false, cells->at[0].tape, cells->at[0].count});
+        renew_children(r, 0, past);
     }
     for (size_t i = 0; i < cells->count; i++) { /* what is shared was of other numbers */
         cells->at[i].trunk = cells->at[i].children ? cells->at[i].trunk : NULL;

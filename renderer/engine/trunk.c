@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "engine_internal.h"
+#include "matches.h"
 #include "protocol/limits.h"
 #include "protocol/memory.h"
 
@@ -67,6 +68,24 @@ void trunk_destroy(struct trunk *trunk)
     pthread_cond_destroy(&trunk->known);
     pthread_mutex_destroy(&trunk->lock);
     free(trunk);
+}
+
+static void cube_rename(struct trunk_cube *cube, const struct matches *matches)
+{
+    for (int i = 0; cube && i < CUBE_CHILDREN; i++) {
+        struct trunk_tape *tape = &cube->tapes[i];
+        matches_rename(matches, tape->words, tape->words ? tape->count : 0);
+        cube_rename(tape->cube, matches);
+    }
+}
+
+void trunk_rename(struct trunk *trunk, const struct matches *matches)
+{
+    for (int i = 0; i < ENGINE_SPACES; i++) {
+        for (struct trunk_cube *root = trunk->roots[i]; root; root = root->older) {
+            cube_rename(root, matches);
+        }
+    }
 }
 
 size_t trunk_bytes(const struct trunk *trunk)

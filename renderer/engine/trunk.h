@@ -3,8 +3,8 @@
  * and what a child leaves out of them takes most of the time of a first picture of many shapes. The
  * thread that first needs something of a cube makes it; others that need it meanwhile wait.
  *
- * Of any thread, but for trunk_create(), trunk_end() and trunk_destroy(), while no other uses
- * it. */
+ * Of any thread, but for trunk_create(), trunk_end(), trunk_rename() and trunk_destroy(), while no
+ * other uses it. */
 #ifndef RENDERER_ENGINE_TRUNK_H
 #define RENDERER_ENGINE_TRUNK_H
 
@@ -34,12 +34,15 @@ struct trunk_cube {
     struct trunk_cube *older; /* of a root: that of another size, which is no longer asked for */
 };
 
+struct matches;
 struct trunk;
 struct trunk *trunk_create(void);
 /* No cube that is begun from now on shares anything. Those that do stay as they are. */
 void trunk_end(struct trunk *trunk);
 bool trunk_has_ended(const struct trunk *trunk);
 void trunk_destroy(struct trunk *trunk); /* NULL is nothing */
+/* Of the operations in all tapes: matches.h. */
+void trunk_rename(struct trunk *trunk, const struct matches *matches);
 size_t trunk_bytes(const struct trunk *trunk);
 
 /* The root of a space whose half is this; NULL: after trunk_end(). */

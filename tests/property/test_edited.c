@@ -338,6 +338,33 @@ static void a_move_of_the_bounds_draws_little(void **state)
     resident_destroy(pair.forgotten);
 }
 
+/* So does a small shape that comes, is hidden, and goes. */
+static void a_shape_more_or_less_draws_little(void **state)
+{
+    static const char *const edits[] = {
+        "[{'op':'insert','into':'/nodes/root','before':null,'value':{'id':'new','type':'sphere',"
+        "'transform':{'translation':[0.3,0.2,0.4],'scale':0.05}}}]",
+        "[{'op':'set','at':'/nodes/new/visible','value':false}]",
+        "[{'op':'set','at':'/nodes/new/visible','value':true}]",
+        "[{'op':'remove','at':'/nodes/new'}]",
+    };
+    struct random random = {84};
+    struct job_desc desc = desc_of(0);
+
+    (void)state;
+    desc.width *= LARGER;
+    desc.height *= LARGER;
+    const struct pair pair = scattered(&random, MANY, &desc);
+    for (size_t i = 0; i < sizeof edits / sizeof edits[0]; i++) {
+        cJSON *ops = parse("%s", edits[i]);
+        assert_true(edit(&pair, ops));
+        assert_true(check(&pair, &desc, ops) <= 0.2);
+        cJSON_Delete(ops);
+    }
+    resident_destroy(pair.kept);
+    resident_destroy(pair.forgotten);
+}
+
 static int set_up(void **state)
 {
     const struct renderer_params params = {.device = {.kind = DEVICE_NONE, .index = -1},
@@ -366,6 +393,7 @@ int main(void)
         cmocka_unit_test(edits_change_what_they_have_to),
         cmocka_unit_test(a_small_move_draws_little),
         cmocka_unit_test(a_move_of_the_bounds_draws_little),
+        cmocka_unit_test(a_shape_more_or_less_draws_little),
     };
 
     return cmocka_run_group_tests_name("pictures after edits", tests, set_up, tear_down);

@@ -12,7 +12,7 @@
 #include "renderer/engine/cubes.h"
 #include "tests/support/json_text.h"
 
-enum { FIELDS = 5 }; /* one more than are kept */
+enum { FIELDS = 5, MANY = 9 }; /* one more than are kept; shapes of a larger one */
 
 static struct engine_cubes *kept;
 static struct engine_program *programs[FIELDS];
@@ -131,6 +131,41 @@ static void other_fields_have_their_own(void **state)
     assert_int_equal(draw(1, params_of(1), 2), 2);
 }
 
+static struct field *many_spheres(int count)
+{
+    char text[2000] = "{'format':'fieldcast/1','root':{'id':'r','type':'union','children':[";
+    struct error err = {0};
+
+    for (int i = 0; i < count; i++) {
+        char *end = text + strlen(text);
+        snprintf(end, sizeof text - (size_t)(end - text),
+                 "%s{'id':'s%d','type':'sphere','params':{'radius':%d}}", i > 0 ? "," : "", i,
+                 i + 1);
+    }
+    strcat(text, "]}}");
+    struct scene *scene = json_text_valid_scene(text);
+    struct field *field = field_compile(scene, &err);
+    assert_non_null(field);
+    scene_destroy(scene);
+    return field;
+}
+
+/* The first of many, one more, and half of them: too few are the same. */
+static void another_structure_of_the_scene_finds_them(void **state)
+{
+    static const int counts[] = {MANY, MANY + 1, MANY / 2};
+    static const int32_t found[] = {0, 1, 0};
+
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        struct field *field = many_spheres(counts[i]);
+        engine_program_destroy(programs[i]);
+        programs[i] = engine_program_create(field, 0, 1);
+        assert_int_equal(draw(i, params_of(i), (int32_t)i + 1), found[i]);
+        field_unref(field);
+    }
+}
+
 static void the_one_that_waited_longest_goes(void **state)
 {
     (void)state;
@@ -200,6 +235,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(unknown_numbers_find_none, set_up, tear_down),
         cmocka_unit_test_setup_teardown(points_belong_to_their_shape, set_up, tear_down),
         cmocka_unit_test_setup_teardown(other_fields_have_their_own, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(another_structure_of_the_scene_finds_them, set_up,
+                                        tear_down),
         cmocka_unit_test_setup_teardown(the_one_that_waited_longest_goes, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_was_taken_is_gone, set_up, tear_down),
     };
