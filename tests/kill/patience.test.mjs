@@ -6,7 +6,7 @@ import assert from 'node:assert/strict';
 import { execFileSync, spawn, spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { after, test } from 'node:test';
+import { after, afterEach, test } from 'node:test';
 import {
     ask,
     counter,
@@ -44,15 +44,16 @@ const scene = (code) => ({
 
 const folder = makeDirectory();
 const daemons = [];
-after(async () => {
-    await Promise.all(daemons.map((daemon) => daemon.stop()));
-    removeDirectory(folder);
-});
+let started = 0;
+// What hangs in a process goes on for as long as its daemon does.
+afterEach(() => Promise.all(daemons.splice(0).map((daemon) => daemon.stop())));
+after(() => removeDirectory(folder));
 
 /** With the driver in front of one that draws nothing: nobody looks at a pixel here. */
 async function start(...args) {
     process.env.LD_PRELOAD = `${driver} ${nothing}`;
-    process.env.HOSTILE_COUNT = path.join(folder, `count-${daemons.length}`);
+    started += 1;
+    process.env.HOSTILE_COUNT = path.join(folder, `count-${started}`);
     Object.assign(process.env, nothingElse);
     const daemon = await startDaemon({ args: ['--cache', folder, ...args] });
     delete process.env.LD_PRELOAD;
@@ -112,7 +113,7 @@ test('a tile that is long at work is no hung process', async (t) => {
 
 test('a scene whose tiles took too long for one process is drawn by the next in the smallest', async () => {
     const daemon = await start('--worker-busy', '200');
-    const live = await open(daemon, 'smaller', DRAW_SLOWLY);
+    const live = await open(daemon, 'smaller', DRAW_SLOWLY, { width: 32, height: 24 });
     await live.nextFrame((frame) => frame.lossless);
     assert.ok((await restarts(daemon)) >= 1);
     assert.deepEqual(errors(live), []);
