@@ -12,7 +12,7 @@ import { closePage, documentWhen, field, nodeIn, pictureChanged, row, settled, s
 const MOST_ACTS = 9;
 const program = process.env.FIELDCAST ?? 'build/release/fieldcast';
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 
 const check = (document) => spawnSync(program, ['check', '-'], { input: JSON.stringify(document), encoding: 'utf8' });
 const only = (node, type) => (node.type === type ? node : (node.children ?? []).map((one) => only(one, type)).find(Boolean));

@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { until } from '../support/daemon.mjs';
 import { picture, row, settled, useStage } from './stage.mjs';
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 
 /** Where the end of an axis is drawn, in whole pixels. */
 const axisOf = (page) =>

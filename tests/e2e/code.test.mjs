@@ -22,7 +22,7 @@ import {
     valueIs,
 } from './stage.mjs';
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 let page;
 let id;
 

@@ -33,7 +33,7 @@ const scene = (type, params = {}) => ({
     },
 });
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 let page;
 let id;
 

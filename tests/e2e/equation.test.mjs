@@ -14,7 +14,7 @@ import {
     useStage,
 } from './stage.mjs';
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 let page;
 let id;
 

@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { ask } from '../support/daemon.mjs';
 import { closePage, documentWhen, field, nodeIn, row, useStage } from './stage.mjs';
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 
 const badge = (page) => page.locator('.quality-badge');
 const says = (page, text) => badge(page).and(page.locator(':not([data-old])')).getByText(text).waitFor();

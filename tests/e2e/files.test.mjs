@@ -8,7 +8,7 @@ import { documentWhen, nodeIn, picture, row, useStage, waitForSaved } from './st
 
 const THESIS = new URL('../import/thesis/', import.meta.url).pathname;
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 let page;
 let id;
 

@@ -18,7 +18,7 @@ import {
     useStage,
 } from './stage.mjs';
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 let page;
 let id;
 

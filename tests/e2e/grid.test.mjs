@@ -15,7 +15,7 @@ const DOCUMENT = {
     root: { id: 'root', type: 'union', children: [ball('sun', [0.5, 0.5, 0.5], 1.2), ball('moon', [-2.5, 0.4, 0], 0.4)] },
 };
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 let page;
 let scene;
 let box;

@@ -5,7 +5,7 @@ import { describe, test } from 'node:test';
 import { ask, until } from '../support/daemon.mjs';
 import { documentWhen, field, nodeIn, picture, row, SCENE, settled, useStage } from './stage.mjs';
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 let page;
 let id;
 

@@ -19,7 +19,7 @@ import {
     waitForSaved,
 } from './stage.mjs';
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 let page;
 let id;
 

@@ -25,7 +25,7 @@ const DOCUMENT = {
     },
 };
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 let page;
 let id;
 

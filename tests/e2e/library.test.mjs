@@ -54,7 +54,7 @@ const TABLE = {
     root: { id: 'root', type: 'union', children: [{ id: 'top', type: 'box', material: 'clay', params: { size: [3, 0.2, 2] } }] },
 };
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 let page;
 
 const entries = async (from = stage) => (await ask(from.daemon, 'GET', '/v1/library')).entries;

@@ -6,7 +6,7 @@ import { until } from '../support/daemon.mjs';
 import { decodePng } from '../support/png.mjs';
 import { documentWhen, nodeIn, picture, row, settled, useStage } from './stage.mjs';
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 let page;
 let id;
 

@@ -8,7 +8,7 @@ import { closePage, documentWhen, dragBy, nodeIn, picture, row, settled, useStag
 
 const MOST_ACTS = 19;
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 
 test(`a mug takes at most ${MOST_ACTS} acts`, async () => {
     const page = await stage.page({ width: 1440, height: 900 });

@@ -100,11 +100,25 @@ function watch(browser) {
     return { heard: () => patience.heard(), end: () => clearInterval(timer) };
 }
 
+const COARSE = 2;
+
+/** The page asks for so many times fewer pixels in each direction, and magnifies the pictures. */
+function coarsenPictures(times) {
+    const { prototype } = ResizeObserverEntry;
+    const { get } = Object.getOwnPropertyDescriptor(prototype, 'devicePixelContentBoxSize');
+    Object.defineProperty(prototype, 'devicePixelContentBoxSize', {
+        get() {
+            return get.call(this).map(({ inlineSize, blockSize }) => ({ inlineSize: inlineSize / times, blockSize: blockSize / times }));
+        },
+    });
+}
+
 /**
  * FIELDCAST_WEB: a built page to serve instead of the one in the program. `data`: where. `driver`: as
  * of startDaemon. `whole`: in the browser that users have. `webgl`: the processors do what it asks for.
+ * `coarse`: pictures have a quarter of the pixels, for tests that count none and hold none against the server's.
  */
-export async function openStage({ data, driver, whole = false, webgl = false, args: more = [] } = {}) {
+export async function openStage({ data, driver, whole = false, webgl = false, coarse = false, args: more = [] } = {}) {
     const web = process.env.FIELDCAST_WEB;
     const args = [...(web ? ['--web', web] : []), ...more];
     const daemon = await startDaemon({ data, driver, args });
@@ -126,7 +140,7 @@ export async function openStage({ data, driver, whole = false, webgl = false, ar
         },
         /** Something is still going on. */
         heard: watched.heard,
-        page: (options) => openPage(browser, daemon, watched, { whole, ...options }),
+        page: (options) => openPage(browser, daemon, watched, { whole, coarse, ...options }),
         /** The document's bytes as the server holds them. */
         document: async (id) => (await fetch(`${daemon.url}/v1/scenes/${id}`)).text(),
         async close() {
@@ -178,6 +192,9 @@ async function openPage(browser, daemon, watched, options = {}) {
             localStorage.setItem(key, JSON.stringify({ hintsDone: ['drag', 'click'] }));
         }
     }, hints);
+    if (options.coarse) {
+        await context.addInitScript(coarsenPictures, COARSE);
+    }
     if (!options.whole) {
         await context.addInitScript(() => {
             delete Element.prototype.requestPointerLock;

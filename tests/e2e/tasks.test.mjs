@@ -25,7 +25,7 @@ import {
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
 const { AxeBuilder } = require('@axe-core/playwright');
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 let page;
 let id;
 

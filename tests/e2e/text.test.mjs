@@ -12,7 +12,7 @@ import { documentWhen, field, nodeIn, row, useStage, waitForSaved } from './stag
 
 const FOLDER = new URL('../import/thesis', import.meta.url).pathname;
 
-const stage = useStage();
+const stage = useStage({ coarse: true });
 let page;
 let id;
 
