@@ -65,7 +65,9 @@ static void lower_declaration(struct lower *lower, const struct stmt *stmt)
     }
     const int count = type_components(variable->type);
     variable->at_frame = alloc_local(lower, count);
-    if (stmt->expr) {
+    if (stmt->expr && lower_has_parts(stmt->expr)) {
+        lower_parts(lower, stmt->expr, variable->at_frame);
+    } else if (stmt->expr) {
         lower_move(lower, variable->at_frame, lower_value(lower, stmt->expr), count);
     } else {
         lower_nothing(lower, variable);
@@ -102,8 +104,10 @@ static void lower_counter(struct lower *lower, const struct stmt *stmt, uint16_t
         const struct operand step = {lower_number(lower, base, &stmt->step, 1), false};
         at.at = lower_arithmetic(lower, OP_MULTIPLY, type, at, step);
     }
-    const struct operand start = {lower_number(lower, base, &stmt->start, 1), false};
-    at.at = lower_arithmetic(lower, OP_ADD, type, at, start);
+    if (stmt->start != 0) {
+        const struct operand start = {lower_number(lower, base, &stmt->start, 1), false};
+        at.at = lower_arithmetic(lower, OP_ADD, type, at, start);
+    }
     lower_move(lower, stmt->variable->at_frame, at.at, 1);
 }
 

@@ -82,6 +82,9 @@ uint16_t lower_increment(struct lower *lower, const struct expr *expr, bool want
 /* lower_values.c: where the expression's value is, which may be a variable's own place: parts of an
  * expression do not assign to what others use (check_order). */
 uint16_t lower_value(struct lower *lower, const struct expr *expr);
+/* A constructor whose arguments follow one another, into a place that none of them is in. */
+bool lower_has_parts(const struct expr *expr);
+void lower_parts(struct lower *lower, const struct expr *expr, uint16_t out);
 /* Of a statement, whose value is not used. */
 void lower_effect(struct lower *lower, const struct expr *expr);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Constructors and functions as steps, and expressions of all kinds. */
 #include <assert.h>
+#include <string.h>
 
 #include "lower.h"
 
@@ -72,32 +73,82 @@ static uint16_t lower_surface(struct lower *lower, const struct expr *expr)
     return out;
 }
 
-static uint16_t lower_construct(struct lower *lower, const struct expr *expr)
+/* Made of one value that is more than a part of it. */
+static bool is_conversion(const struct expr *expr)
 {
-    struct type type = expr->type;
+    const struct type type = expr->type;
+
+    return type_is_surface(type) || (expr->arg_count == 1 && type.count == 0);
+}
+
+static uint16_t lower_conversion(struct lower *lower, const struct expr *expr)
+{
+    const struct type type = expr->type, own = expr->args->type;
 
     if (type_is_surface(type)) {
         return lower_surface(lower, expr);
     }
-    int count = type_components(type), filled = 0;
-    if (expr->arg_count == 1 && type.count == 0) {
-        struct type own = expr->args->type;
-        if (type_is_matrix(type) && (type_is_scalar(own) || type_is_matrix(own))) {
-            return lower_matrix(lower, expr);
-        }
-        if (type_is_vector(type) && type_is_scalar(own)) {
-            return lower_spread(lower, expr);
-        }
-        return converted(lower, expr->args, (enum base)type.base);
+    if (type_is_matrix(type) && (type_is_scalar(own) || type_is_matrix(own))) {
+        return lower_matrix(lower, expr);
     }
-    const uint16_t out = lower_alloc(lower, count);
-    for (const struct expr *arg = expr->args; arg && filled < count; arg = arg->next) {
-        int have = type_components(arg->type);
-        have = have < count - filled ? have : count - filled;
-        const uint16_t from = converted(lower, arg, (enum base)type.base);
-        lower_move(lower, (uint16_t)(out + filled), from, have);
+    if (type_is_vector(type) && type_is_scalar(own)) {
+        return lower_spread(lower, expr);
+    }
+    return converted(lower, expr->args, (enum base)type.base);
+}
+
+/* Constants from `*arg` on, up to `room` numbers; how many there are. */
+static int constants_in_a_row(const struct expr **arg, enum base base, int room, double *out)
+{
+    int count = 0;
+
+    for (; *arg && (*arg)->value && (*arg)->type.base == base; *arg = (*arg)->next) {
+        const int have = type_components((*arg)->type);
+        if (count + have > room) {
+            break;
+        }
+        memcpy(out + count, (*arg)->value, (size_t)have * sizeof *out);
+        count += have;
+    }
+    return count;
+}
+
+void lower_parts(struct lower *lower, const struct expr *expr, uint16_t out)
+{
+    enum { ROW_MAX = 16 };
+    const enum base base = (enum base)expr->type.base;
+    const int count = type_components(expr->type);
+    int filled = 0;
+
+    for (const struct expr *arg = expr->args; arg && filled < count;) {
+        double row[ROW_MAX];
+        const uint16_t to = (uint16_t)(out + filled);
+        const int room = count - filled, most = room < ROW_MAX ? room : ROW_MAX;
+        int have = constants_in_a_row(&arg, base, most, row);
+        if (have > 0) {
+            lower_move(lower, to, lower_number(lower, base, row, have), have);
+        } else {
+            have = type_components(arg->type);
+            have = have < room ? have : room;
+            lower_move(lower, to, converted(lower, arg, base), have);
+            arg = arg->next;
+        }
         filled += have;
     }
+}
+
+bool lower_has_parts(const struct expr *expr)
+{
+    return !expr->value && expr->kind == EXPR_CONSTRUCT && !is_conversion(expr);
+}
+
+static uint16_t lower_construct(struct lower *lower, const struct expr *expr)
+{
+    if (is_conversion(expr)) {
+        return lower_conversion(lower, expr);
+    }
+    const uint16_t out = lower_alloc(lower, type_components(expr->type));
+    lower_parts(lower, expr, out);
     return out;
 }
 
