@@ -8,6 +8,20 @@ static void write_dual(const struct equation_writer *w, uint16_t index)
     fprintf(w->out, varies(w, index) ? "g%d" : "vec4(0.0, 0.0, 0.0, s%d)", index);
 }
 
+static void write_dual_sum(const struct equation_writer *w, const struct equation_node *node)
+{
+    const int a = node->args[0], b = node->args[1];
+    const char sign = node->op == EQUATION_ADD ? '+' : '-';
+
+    if (!varies(w, b)) {
+        fprintf(w->out, "vec4(g%d.xyz, g%d.w %c s%d)", a, a, sign, b);
+    } else if (!varies(w, a)) {
+        fprintf(w->out, "vec4(%sg%d.xyz, s%d %c g%d.w)", sign == '-' ? "-" : "", b, a, sign, b);
+    } else {
+        fprintf(w->out, "g%d %c g%d", a, sign, b);
+    }
+}
+
 static void write_dual_times(const struct equation_writer *w, uint16_t a, uint16_t b)
 {
     if (varies(w, a) && varies(w, b)) {
@@ -30,7 +44,7 @@ static void write_dual_rule(const struct equation_writer *w, const struct equati
     fputs(")", w->out);
 }
 
-/* qI is the next lower power. */
+/* qI is the next lower power; that of a square is its root itself. */
 static void write_dual_power_below(const struct equation_writer *w, size_t index)
 {
     const struct equation_node *node = node_of(w, (uint16_t)index);
@@ -38,7 +52,7 @@ static void write_dual_power_below(const struct equation_writer *w, size_t index
 
     snprintf(to, sizeof to, "q%zu", index);
     snprintf(from, sizeof from, "g%d.w", node->args[0]);
-    if (node->op == EQUATION_WHOLE && size_of_power(node) > 1) {
+    if (node->op == EQUATION_WHOLE && size_of_power(node) > 2) {
         equation_write_power(w->out, "float", to, from, size_of_power(node) - 1);
     }
 }
@@ -52,6 +66,8 @@ static void write_dual_whole(const struct equation_writer *w, size_t index)
         fputs("vec4(0.0, 0.0, 0.0, 1.0)", w->out);
     } else if (n == 1) {
         fprintf(w->out, "g%d", a);
+    } else if (n == 2) {
+        fprintf(w->out, "jet_dual_of(g%d, g%d.w * g%d.w, 2.0 * g%d.w)", a, a, a, a);
     } else {
         fprintf(w->out, "jet_dual_of(g%d, q%zu * g%d.w, %d.0 * q%zu)", a, index, a, n, index);
     }
@@ -126,6 +142,10 @@ static void write_dual_call(const struct equation_writer *w, const struct equati
 {
     const struct equation_rule *rule = &equation_rules[node->which];
 
+    if (equation_is_wave(node) || equation_is_exp(node)) {
+        fprintf(w->out, "jet_dual_%s(g%d)", equation_functions[node->which].name, node->args[0]);
+        return;
+    }
     if (rule->slope) {
         write_dual_rule(w, rule, node->args[0]);
         return;
@@ -175,9 +195,7 @@ void equation_write_gradient(const struct equation_writer *w, size_t index)
         write_dual_call(w, node);
         break;
     default:
-        write_dual(w, node->args[0]);
-        fputs(node->op == EQUATION_ADD ? " + " : " - ", w->out);
-        write_dual(w, node->args[1]);
+        write_dual_sum(w, node);
     }
     fputs(";\n", w->out);
 }

@@ -52,7 +52,12 @@ static void write_jet_power_below(const struct equation_writer *w, size_t index)
 
     snprintf(to, sizeof to, "q%zu", index);
     snprintf(from, sizeof from, "e%zu", index);
-    if (node->op == EQUATION_WHOLE && size_of_power(node) > 1) {
+    if (node->op != EQUATION_WHOLE || size_of_power(node) < 2) {
+        return;
+    }
+    if (size_of_power(node) == 2) {
+        fprintf(w->out, "vec2 q%zu = abs(j%d[2].xy);\n", index, node->args[0]);
+    } else {
         fprintf(w->out, "vec2 %s = abs(j%d[2].xy);\n", from, node->args[0]);
         equation_write_power(w->out, "vec2", to, from, size_of_power(node) - 1);
     }
@@ -102,40 +107,26 @@ static void write_jet_operand(const struct equation_writer *w, uint16_t index)
             index, index);
 }
 
-/* An earlier sine or cosine of the same argument, or `index`. */
+/* The first sine or cosine of the same argument. */
 static size_t find_turn(const struct equation_writer *w, size_t index)
 {
     const uint16_t a = node_of(w, index)->args[0];
+    size_t first = 0;
 
-    for (size_t i = 0; i < index; i++) {
-        const struct equation_node *node = node_of(w, i);
-        if (w->used[i] && node->op == EQUATION_CALL && node->args[0] == a &&
-            (node->which == EQUATION_SIN || node->which == EQUATION_COS)) {
-            return i;
-        }
+    while (!(w->used[first] && equation_is_wave(node_of(w, first)) &&
+             node_of(w, first)->args[0] == a)) {
+        first++;
     }
-    return index;
+    return first;
 }
 
-/* Before the jet: the values and slopes of a sine or cosine, rI. Each one's slopes are the other's
- * values, but for the sign. */
+/* Sines and cosines of one argument are ranges rI, which the first of them makes. */
 static void write_turn(const struct equation_writer *w, size_t index)
 {
     const struct equation_node *node = node_of(w, index);
-    const size_t other = find_turn(w, index);
 
-    if (node->op != EQUATION_CALL || (node->which != EQUATION_SIN && node->which != EQUATION_COS)) {
-        return;
-    }
-    if (other == index) {
-        fprintf(w->out, "vec4 r%zu = range_%s(j%d[2].xy);\n", index,
-                equation_functions[node->which].name, node->args[0]);
-    } else if (node->which == EQUATION_SIN) {
-        fprintf(w->out, "vec4 r%zu = vec4(-r%zu.w, -r%zu.z, r%zu.xy);\n", index, other, other,
-                other);
-    } else {
-        fprintf(w->out, "vec4 r%zu = vec4(r%zu.zw, -r%zu.y, -r%zu.x);\n", index, other, other,
-                other);
+    if (equation_is_wave(node) && find_turn(w, index) == index) {
+        fprintf(w->out, "vec4 r%zu = jet_turn(j%d[2].xy);\n", index, node->args[0]);
     }
 }
 
@@ -145,8 +136,13 @@ static void write_jet_call(const struct equation_writer *w, size_t index)
     const char *name = equation_functions[node->which].name;
     const uint16_t a = node->args[0];
 
-    if (node->which == EQUATION_SIN || node->which == EQUATION_COS) {
-        fprintf(w->out, "jet_of(j%d, r%zu)", a, index);
+    if (equation_is_exp(node)) {
+        fprintf(w->out, "jet_exp(j%d)", a);
+        return;
+    }
+    if (equation_is_wave(node)) {
+        fprintf(w->out, "jet_%s(j%d, r%zu)", node->which == EQUATION_SIN ? "of" : "cos", a,
+                find_turn(w, index));
         return;
     }
     if (equation_rules[node->which].slope) {

@@ -30,10 +30,8 @@ const struct equation_rule equation_reciprocal = {
     "}\n"};
 
 const struct equation_rule equation_rules[EQUATION_FUNCTIONS] = {
-    [EQUATION_SIN] = {"sin($)", "cos($)",
-                      "vec4 range_sin(vec2 x) { return jet_range_cos(x - 1.570796327); }\n"},
-    [EQUATION_COS] = {"cos($)", "(-sin($))",
-                      "vec4 range_cos(vec2 x) { return jet_range_cos(x); }\n"},
+    [EQUATION_SIN] = {"sin($)", "cos($)", ""},
+    [EQUATION_COS] = {"cos($)", "(-sin($))", ""},
     [EQUATION_TAN] = {"tan($)", "(1.0 + tan($) * tan($))",
                       "vec4 range_tan(vec2 x)\n"
                       "{\n"
@@ -84,12 +82,7 @@ const struct equation_rule equation_rules[EQUATION_FUNCTIONS] = {
                        "    vec2 value = tanh(x), s = sizes(value), slope = 1.0 - s * s;\n"
                        "    return vec4(value, slope.yx);\n"
                        "}\n"},
-    [EQUATION_EXP] = {"exp(min($, 40.0))", "exp(min($, 40.0))",
-                      "vec4 range_exp(vec2 x)\n"
-                      "{\n"
-                      "    vec2 y = exp(min(x, 40.0));\n"
-                      "    return vec4(y, y);\n"
-                      "}\n"},
+    [EQUATION_EXP] = {"exp(min($, 40.0))", "exp(min($, 40.0))", ""},
     [EQUATION_LOG] = {"log(max($, 1e-18))", "(1.0 / max($, 1e-18))",
                       "vec4 range_log(vec2 x)\n"
                       "{\n"

@@ -12,7 +12,7 @@ struct equation_rule {
     /* vec4 range_NAME(vec2 x): what value (x, y) and slope (z, w) are at least and at most while
      * the argument is from x.x to x.y. With two arguments: vec4 dual_NAME(vec4 a, vec4 b) of their
      * (gradient, value), and mat3 jet_NAME(mat3 a, mat3 b). */
-    const char *range;
+    const char *range; /* empty: they are in jets.h */
 };
 extern const struct equation_rule equation_rules[EQUATION_FUNCTIONS];
 /* Of 1 / x, which is no function of the language. */

@@ -72,7 +72,7 @@ void equation_write_scalar(const struct equation_writer *w, size_t index)
     char argument[16];
 
     write_known_power(w, index);
-    fprintf(w->out, "float s%zu = ", index);
+    fprintf(w->out, "%sfloat s%zu = ", node->op == EQUATION_NUMBER ? "const " : "", index);
     switch ((enum equation_op)node->op) {
     case EQUATION_NUMBER:
         write_number(w->out, node->value);

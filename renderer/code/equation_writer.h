@@ -33,6 +33,18 @@ static inline int size_of_power(const struct equation_node *node)
     return (int)(node->value < 0 ? -node->value : node->value);
 }
 
+/* Of these jets and duals are functions of jets.h. */
+static inline bool equation_is_exp(const struct equation_node *node)
+{
+    return node->op == EQUATION_CALL && node->which == EQUATION_EXP;
+}
+
+static inline bool equation_is_wave(const struct equation_node *node)
+{
+    return node->op == EQUATION_CALL &&
+           (node->which == EQUATION_SIN || node->which == EQUATION_COS);
+}
+
 /* A rule's text for an argument, such as g3.w. */
 void equation_write_rule(const struct equation_writer *w, const char *text, const char *argument);
 /* TYPE to = from^n;, by squaring; n > 0, and `from` is one name. */

@@ -144,29 +144,163 @@ void jet_odd(double *out, const double *const in[], int n)
     jet_of(out, (const double *const[]){in[0], range}, n);
 }
 
-/* Whether x = `at` + a number of whole turns is in the interval. */
-static bool turns_in(const double x[2], double at)
+/* The least and greatest of a wave that is greatest where `turns` is a whole number. */
+static void range_of_wave(const double ends[2], const double turns[2], double at, double out[2])
 {
-    const double turn = 6.283185307;
+    const bool low = floor(turns[1] - at - 0.5) > floor(turns[0] - at - 0.5);
+    const bool high = floor(turns[1] - at) > floor(turns[0] - at);
 
-    return floor((x[1] - at) / turn) > floor((x[0] - at) / turn);
+    out[0] = low ? -1 : fmin(ends[0], ends[1]);
+    out[1] = high ? 1 : fmax(ends[0], ends[1]);
 }
 
-static void range_of_cosine(const double x[2], double out[2])
-{
-    const double ends[2] = {cos(x[0]), cos(x[1])};
-
-    out[0] = turns_in(x, 3.141592654) ? -1 : fmin(ends[0], ends[1]);
-    out[1] = turns_in(x, 0) ? 1 : fmax(ends[0], ends[1]);
-}
-
-/* The slope is -sin x = cos(x + pi/2). */
-void jet_range_cos(double *out, const double *const in[], int n)
+void jet_turn(double *out, const double *const in[], int n)
 {
     const double x[2] = {in[0][0], in[0][1]};
-    const double ahead[2] = {x[0] + 1.570796327, x[1] + 1.570796327};
+    const double turns[2] = {0.15915494309 * x[0], 0.15915494309 * x[1]};
 
     UNUSED(n);
-    range_of_cosine(x, out);
-    range_of_cosine(ahead, out + 2);
+    range_of_wave((const double[]){sin(x[0]), sin(x[1])}, turns, 0.25, out);
+    range_of_wave((const double[]){cos(x[0]), cos(x[1])}, turns, 0, out + 2);
+}
+
+void jet_cos(double *out, const double *const in[], int n)
+{
+    const double *turn = in[1];
+    const double range[4] = {turn[2], turn[3], -turn[1], -turn[0]};
+
+    jet_of(out, (const double *const[]){in[0], range}, n);
+}
+
+void jet_dual_sin(double *out, const double *const in[], int n)
+{
+    const double x = in[0][3], value = sin(x), slope = cos(x);
+
+    jet_dual_of(out, (const double *const[]){in[0], &value, &slope}, n);
+}
+
+void jet_dual_cos(double *out, const double *const in[], int n)
+{
+    const double x = in[0][3], value = cos(x), slope = -sin(x);
+
+    jet_dual_of(out, (const double *const[]){in[0], &value, &slope}, n);
+}
+
+static double bounded_exp(double x)
+{
+    return exp(fmin(x, 40));
+}
+
+void jet_exp(double *out, const double *const in[], int n)
+{
+    const double least = bounded_exp(in[0][VALUE]), most = bounded_exp(in[0][VALUE + 1]);
+
+    jet_of(out, (const double *const[]){in[0], (const double[]){least, most, least, most}}, n);
+}
+
+void jet_dual_exp(double *out, const double *const in[], int n)
+{
+    const double value = bounded_exp(in[0][3]);
+
+    jet_dual_of(out, (const double *const[]){in[0], &value, &value}, n);
+}
+
+/* --- distances --- */
+
+static double length_of(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+void jet_near_box(double *out, const double *const in[], int n)
+{
+    double beyond[3], within = -INFINITY;
+
+    UNUSED(n);
+    for (int i = 0; i < 3; i++) {
+        const double p = in[0][i], half = 0.5 * in[1][i];
+        out[i] = fmin(fmax(p, -half), half);
+        beyond[i] = p - out[i];
+        within = fmax(within, fabs(p) - half);
+    }
+    const double outside = length_of(beyond);
+    out[3] = outside > 0 ? outside : within;
+}
+
+void jet_near_ball(double *out, const double *const in[], int n)
+{
+    const double *p = in[0], radius = in[1][0], way = length_of(p);
+    const double by = fmin(1, radius / fmax(way, 1e-18));
+
+    UNUSED(n);
+    out[3] = way - radius;
+    for (int i = 0; i < 3; i++) {
+        out[i] = p[i] * by;
+    }
+}
+
+void jet_clipped(double *out, const double *const in[], int n)
+{
+    const double way = in[0][3], d = in[1][0];
+
+    UNUSED(n);
+    out[0] = way > 0 ? hypot(way, fmax(d, 0)) : fmax(d, way);
+}
+
+void jet_begin(double *out, const double *const in[], int n)
+{
+    const double value = fabs(in[0][3]), slope = length_of(in[0]);
+
+    UNUSED(n);
+    out[0] = value;
+    out[1] = fmin(value / fmax(slope, 1e-18), in[1][0]);
+}
+
+/* What an interval tells of the slope: the greatest; that nothing is 0; that there is a jump. */
+struct told {
+    double most;
+    bool clear, jumps;
+};
+
+static struct told told_by(const double *jet)
+{
+    double steepest[3];
+
+    for (int i = 0; i < 3; i++) {
+        steepest[i] = fmax(fabs(jet[LEAST + i]), fabs(jet[MOST + i]));
+    }
+    const double most = fmax(length_of(steepest), 1e-18);
+    const bool clear = !has_zero(jet + VALUE);
+    return (struct told){most, clear, !clear && most > 1e17};
+}
+
+static double smaller(double reach, double free, bool jumps)
+{
+    return jumps ? 0.2 * reach : sqrt(fmax(free, 0.001 * reach) * reach);
+}
+
+void jet_solid(double *out, const double *const in[], int n)
+{
+    const double value = in[1][0], reach = in[1][1];
+    const struct told told = told_by(in[0]);
+    const double free = told.clear ? reach : fmin(value / told.most, reach);
+
+    UNUSED(n);
+    out[0] = told.jumps ? 0.0003 * reach : free;
+    out[1] = free > 0.4 * reach ? 0 : smaller(reach, free, told.jumps);
+}
+
+void jet_sheet(double *out, const double *const in[], int n)
+{
+    const double value = in[1][0], reach = in[1][1], thickness = in[2][0], grain = thickness / 16;
+    const struct told told = told_by(in[0]);
+    const bool last = reach <= grain;
+    const double free = fmin(value / told.most - 0.5 * thickness, last ? grain : reach - grain);
+    const bool ends = free < 2 * grain && reach < 2 * thickness;
+
+    UNUSED(n);
+    out[0] = last && told.clear && told.most > 1e17 ? grain : free;
+    out[1] = last || free > 0.4 * reach ? 0
+             : ends                     ? grain
+                                        : fmax(smaller(reach, free, told.jumps), grain);
 }

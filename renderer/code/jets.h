@@ -23,7 +23,24 @@ void jet_of(double *out, const double *const in[], int n);
 /* To the even or odd power k: jet, |end of its values|^(k - 1) of both ends, k. */
 void jet_even(double *out, const double *const in[], int n);
 void jet_odd(double *out, const double *const in[], int n);
-/* The cosine of an interval: least and greatest value, least and greatest slope. */
-void jet_range_cos(double *out, const double *const in[], int n);
+/* Of an interval: least and greatest sine, least and greatest cosine. */
+void jet_turn(double *out, const double *const in[], int n);
+void jet_cos(double *out, const double *const in[], int n); /* jet, turn of its values */
+void jet_exp(double *out, const double *const in[], int n); /* of at most 40 */
+void jet_dual_exp(double *out, const double *const in[], int n);
+void jet_dual_sin(double *out, const double *const in[], int n);
+void jet_dual_cos(double *out, const double *const in[], int n);
+
+/* The nearest point of a clip, and the way there, in the clip less than 0: point, size. */
+void jet_near_box(double *out, const double *const in[], int n);
+void jet_near_ball(double *out, const double *const in[], int n);
+/* A distance: the same, and the distance at that point. */
+void jet_clipped(double *out, const double *const in[], int n);
+/* |f| and half of the side of the first box: dual, the most that half may be. */
+void jet_begin(double *out, const double *const in[], int n);
+/* The way that is free, and half of the side of the next box, 0: none. Of the jet in a box, |f| and
+ * half of the box's side, the thickness. */
+void jet_solid(double *out, const double *const in[], int n);
+void jet_sheet(double *out, const double *const in[], int n);
 
 #endif

@@ -76,16 +76,104 @@ mat3 jet_odd(mat3 a, vec2 power, float k)
                           k * max(power.x, power.y)));
 }
 
-vec2 jet_cosine(vec2 x)
+/* Of both ends of an interval: (sine of either, cosine of either), each from the least to the
+ * greatest between them. A sine is greatest after a quarter of a turn. */
+vec4 jet_turn(vec2 x)
 {
-    vec2 ends = cos(x), turns = floor(x / 6.283185307);
-    vec2 half_turns = floor((x - 3.141592654) / 6.283185307);
-    return vec2(half_turns.y > half_turns.x ? -1.0 : min(ends.x, ends.y),
-                turns.y > turns.x ? 1.0 : max(ends.x, ends.y));
+    vec2 s = sin(x), c = cos(x), turns = 0.15915494309 * x;
+    vec2 top = floor(turns - 0.25), low = floor(turns + 0.25);
+    vec2 front = floor(turns), back = floor(turns - 0.5);
+    return vec4(low.y > low.x ? -1.0 : min(s.x, s.y), top.y > top.x ? 1.0 : max(s.x, s.y),
+                back.y > back.x ? -1.0 : min(c.x, c.y), front.y > front.x ? 1.0 : max(c.x, c.y));
 }
 
-/* The slope is -sin x = cos(x + pi/2). */
-vec4 jet_range_cos(vec2 x)
+/* The cosine; that of a sine is jet_of(a, turn), whose slopes are cosines. */
+mat3 jet_cos(mat3 a, vec4 turn)
 {
-    return vec4(jet_cosine(x), jet_cosine(x + 1.570796327));
+    return jet_of(a, vec4(turn.zw, -turn.y, -turn.x));
+}
+
+vec4 jet_dual_sin(vec4 a)
+{
+    return vec4(a.xyz * cos(a.w), sin(a.w));
+}
+
+vec4 jet_dual_cos(vec4 a)
+{
+    return vec4(a.xyz * -sin(a.w), cos(a.w));
+}
+
+mat3 jet_exp(mat3 a)
+{
+    vec2 y = exp(min(a[2].xy, 40.0));
+    return jet_of(a, vec4(y, y));
+}
+
+vec4 jet_dual_exp(vec4 a)
+{
+    float y = exp(min(a.w, 40.0));
+    return vec4(a.xyz * y, y);
+}
+
+/* --- distances --- */
+
+/* The nearest point of the clip, and the way there; in the clip: less than 0. */
+vec4 jet_near_box(vec3 p, vec3 size)
+{
+    vec3 near = clamp(p, -0.5 * size, 0.5 * size), faces = abs(p) - 0.5 * size;
+    float outside = distance(p, near);
+    return vec4(near, outside > 0.0 ? outside : max(faces.x, max(faces.y, faces.z)));
+}
+
+vec4 jet_near_ball(vec3 p, float radius)
+{
+    float apart = length(p);
+    return vec4(p * min(1.0, radius / max(apart, 1e-18)), apart - radius);
+}
+
+/* The distance of a solid from p, which is `d` away from the nearest point of its clip. */
+float jet_clipped(vec4 near, float d)
+{
+    return near.w > 0.0 ? length(vec2(near.w, max(d, 0.0))) : max(d, near.w);
+}
+
+/* Of a dual: |f|, and Newton's step, or `reach` where that is longer. */
+vec2 jet_begin(vec4 a, float reach)
+{
+    return vec2(abs(a.w), min(abs(a.w) / max(length(a.xyz), 1e-18), reach));
+}
+
+float jet_steepest(mat3 a)
+{
+    return max(length(max(abs(a[0]), abs(a[1]))), 1e-18);
+}
+
+/* Of the jet in the box of the half side at.y around a point with |f| = at.x: how far it is to a
+ * zero at least, and the half side of a box that may tell more; 0: none. Nothing is in a box
+ * without a zero among its values. Where the slope in a box tells less than that in a smaller one
+ * would, the box shrinks. Close to a jump or a pole in every box, a ray goes on by a little: it
+ * ends at the jump where the sign changes. */
+vec2 jet_solid(mat3 a, vec2 at)
+{
+    float steepest = jet_steepest(a), reach = at.y;
+    bool apart = a[2].x * a[2].y > 0.0, jumps = !apart && steepest > 1e17;
+    float free = apart ? reach : min(at.x / steepest, reach);
+    float less = jumps ? 0.2 * reach : sqrt(max(free, 0.001 * reach) * reach);
+    return vec2(jumps ? 0.0003 * reach : free, free > 0.4 * reach ? 0.0 : less);
+}
+
+/* The same to a sheet, which is where |f| is at most half of the thickness times the slope in a
+ * small box (`grain`) around the point. Let M be the slope in a box that is larger by the grain
+ * than a ball. Within the ball |f| falls by at most M a unit of way, and the slope in small boxes
+ * is at most M: the sheet is at least |f| / M less half of its thickness away, or the radius of
+ * the ball. */
+vec2 jet_sheet(mat3 a, vec2 at, float thickness)
+{
+    float steepest = jet_steepest(a), reach = at.y, grain = thickness / 16.0;
+    bool apart = a[2].x * a[2].y > 0.0, jumps = !apart && steepest > 1e17, last = reach <= grain;
+    float free = min(at.x / steepest - 0.5 * thickness, last ? grain : reach - grain);
+    float less = jumps ? 0.2 * reach : sqrt(max(free, 0.001 * reach) * reach);
+    less = free < 2.0 * grain && reach < 2.0 * thickness ? grain : max(less, grain);
+    return vec2(last && apart && steepest > 1e17 ? grain : free,
+                last || free > 0.4 * reach ? 0.0 : less);
 }

@@ -39,7 +39,7 @@ static void write_jet_argument(FILE *out, char name, uint8_t size)
     } else if (size == 4) {
         fprintf(out, "vec4(%c[0], %c[1].x)", name, name);
     } else {
-        fprintf(out, "%c[0].%.*s", name, size, "xy");
+        fprintf(out, "%c[0].%.*s", name, size, "xyz");
     }
 }
 
@@ -118,6 +118,8 @@ static bool gives_one(const struct call *call)
     case FAMILY_DETERMINANT:
     case FAMILY_COUNT:
         return true;
+    case FAMILY_JET:
+        return call->row->sizes[0] == 1;
     default:
         return !is_whole(call->row) || call->n == 1;
     }

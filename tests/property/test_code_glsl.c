@@ -293,7 +293,8 @@ static void add_jet(struct code_batch *batch, const struct builtin *row)
     size_t length;
     FILE *out = open_memstream(&text, &length);
 
-    fprintf(out, "float sdf(vec3 p) { %s v = %s(", jet ? "mat3" : "vec4", row->name);
+    fprintf(out, "float sdf(vec3 p) { %s v = %s(", jet ? "mat3" : vectors[row->sizes[0]],
+            row->name);
     for (int i = 0; i < row->arguments; i++) {
         fprintf(out, "%s", i > 0 ? ", " : "");
         write_jet_argument(out, row->sizes[1 + i], i);

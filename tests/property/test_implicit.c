@@ -35,6 +35,9 @@ static const struct {
 } equations[] = {
     {EQUATION_SIN, "sin(4x) + sin(5y) * sin(3z) = 0.2"},
     {EQUATION_COS, "cos(3x)*z + cos(4y + z) = a"},
+    /* These share ranges, whichever comes first. */
+    {EQUATION_FUNCTIONS, "sin(3x)*y + cos(3x)*z = 0.3*sin(4y)"},
+    {EQUATION_FUNCTIONS, "cos(2x - y)*z + sin(2x - y)*cos(5z) = 0.2 + 0.1*sin(5z)"},
     {EQUATION_TAN, "tan(x)*y = z + tan(0.3z)"},
     {EQUATION_ASIN, "asin(x/2) + asin(y/3) = z"},
     {EQUATION_ACOS, "acos(x*y/3) = z + 1"},
@@ -227,9 +230,19 @@ static bool has_jumps(enum equation_name name)
 }
 
 static const char *const leaves[] = {"x", "y", "z", "x", "y", "z", "a"};
-static const char *const forms[] = {
-    "(@ + @)", "(@ - @)",   "(@)*(@)",   "(@)/((@)^2 + 0.2)",     "(@)^2",    "(@)^3",
-    "-(@)^4",  "min(@, @)", "max(@, @)", "atan2(@, (@)^2 + 0.1)", "(@)^2^0.5"};
+static const char *const forms[] = {"(@ + @)",
+                                    "(@ - @)",
+                                    "(@)*(@)",
+                                    "(@)/((@)^2 + 0.2)",
+                                    "(@)^2",
+                                    "(@)^3",
+                                    "-(@)^4",
+                                    "min(@, @)",
+                                    "max(@, @)",
+                                    "atan2(@, (@)^2 + 0.1)",
+                                    "(@)^2^0.5",
+                                    "(sin(2x - z)*(@) + cos(2x - z)*(@))",
+                                    "(cos(y)*(@) - sin(y)*(@))"};
 enum { LEAVES = sizeof leaves / sizeof leaves[0], FORMS = sizeof forms / sizeof forms[0] };
 
 static void write_random(struct random *random, int depth, FILE *out)
@@ -390,8 +403,11 @@ static const struct param range_params[] = {{.name = "half_x", .type = PARAM_FLO
 static struct code *range_code(enum equation_name name)
 {
     struct error err = {0};
-    char text[4000];
+    char text[4000], call[64];
     const bool one = equation_functions[name].arguments == 1;
+
+    snprintf(call, sizeof call, one ? "jet_of(x, range_%s(x[2].xy))" : "jet_%s(x, y)",
+             equation_functions[name].name);
     const int length =
         snprintf(text, sizeof text,
                  "%s%s\nfloat sdf(vec3 p)\n{\n"
@@ -399,11 +415,14 @@ static struct code *range_code(enum equation_name name)
                  "half_x, 0.0));\n"
                  "mat3 y = mat3(vec3(0.0, 1.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(p.y - half_y, p.y + "
                  "half_y, 0.0));\n"
-                 "mat3 j = %s%s%s;\n"
+                 "mat3 j = %s;\n"
                  "float n[6] = {j[2].x, j[2].y, j[0].x, j[1].x, j[0].y, j[1].y};\n"
                  "return clamp(n[int(which)], -9e8, 9e8);\n}\n",
-                 equation_sizes, equation_rules[name].range, one ? "jet_of(x, range_" : "jet_",
-                 equation_functions[name].name, one ? "(x[2].xy))" : "(x, y)");
+                 equation_sizes, equation_rules[name].range,
+                 name == EQUATION_SIN   ? "jet_of(x, jet_turn(x[2].xy))"
+                 : name == EQUATION_COS ? "jet_cos(x, jet_turn(x[2].xy))"
+                 : name == EQUATION_EXP ? "jet_exp(x)"
+                                        : call);
 
     assert_in_range(length, 1, sizeof text - 1);
     struct code *code =
