@@ -26,7 +26,7 @@
 
 enum { POINTS = 400, SAMPLES = 33 };
 static const char *const letters[] = {"a", "b", "c", "d", NULL};
-static const double letter_values[] = {0.7, 1, 1, 1};
+static const double letter_values[] = {0.75, 1, 1, 1}; /* floats hold them */
 
 /* `function`: the row of equation_functions that it is for; EQUATION_FUNCTIONS: none. */
 static const struct {
@@ -76,7 +76,7 @@ static struct field *field_of(const char *text, const char *more)
 
     snprintf(json, sizeof json,
              "{'format':'fieldcast/1','root':{'type':'implicit','params':{"
-             "'equation':'%s','a':0.7%s}}}",
+             "'equation':'%s','a':0.75%s}}}",
              text, more);
     struct scene *scene = json_text_valid_scene(json);
     struct field *field = field_compile(scene, &err);
