@@ -2,7 +2,6 @@
 /* Pictures after edits, of which the engine draws but what may have changed, have the bytes of
  * those that are drawn as the first of their scene. EDITED_EDITS: how many edits there are, of
  * pictures of half the width and height: 10,000 take some ten minutes. */
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,8 +12,8 @@
 
 #include "protocol/json.h"
 #include "tests/support/drawing.h"
-#include "tests/support/json_text.h"
-#include "tests/support/numeric_edit.h"
+#include "tests/support/edited_scene.h"
+#include "tests/support/edits.h"
 
 enum { WIDTH = 76, HEIGHT = 60, EDITS = 36, EDITS_OF_A_LIFE = 6, SCATTERED = 160 };
 enum { MANY = 1000, FEW = 30, MOVES = 3, LARGER = 4 };
@@ -26,147 +25,6 @@ static struct renderer *renderer, *forgetful;
 struct pair {
     struct resident *kept, *forgotten;
 };
-
-/* --- scenes --- */
-
-#define BESIDE                                                                                     \
-    "{'format':'fieldcast/1','camera':{'position':[0,3,7],'target':[0,0,0]},"                      \
-    "'render':{'max_distance':60},"                                                                \
-    "'lights':[{'id':'sun','type':'directional','direction':[-0.5,-1,-0.3]},"                      \
-    "{'id':'lamp','type':'point','position':[2,3,2],'intensity':9}],"                              \
-    "'materials':{'m0':{'shader':'phong'},'m1':{'shader':'checker'},"                              \
-    "'m2':{'shader':'standard','properties':{'metallic':1,'base_color':[0.8,0.7,0.5]}},"           \
-    "'m3':{'shader':'standard','properties':{'transmission':0.8}}},"
-
-/* Many small shapes on a plane, of the first materials; the third one is metal. */
-static void write_scattered(struct random *random, FILE *out, int count, size_t materials)
-{
-    const double size = 2.5 / sqrt(count);
-
-    static const char *const types[] = {"sphere", "box", "torus", "capsule"};
-
-    fputs("'root':{'id':'root','type':'union','children':[{'id':'floor','type':'plane'}", out);
-    for (int i = 0; i < count; i++) {
-        fprintf(out,
-                ",{'id':'s%d','type':'%s','material':'m%d','transform':{'translation':"
-                "[%.3f,%.3f,%.3f],'scale':[%.3f,%.3f,%.3f]}}",
-                i, types[random_below(random, 4)], (int)random_below(random, materials),
-                random_between(random, -3, 3), random_between(random, 0, 0.6),
-                random_between(random, -3, 3), size, size, size * random_between(random, 0.5, 1.5));
-    }
-    fputs("]}}", out);
-}
-
-/* Of all types: repeats and mirrors, blends and cuts. */
-static void write_kinds(struct random *random, FILE *out)
-{
-    const struct random_limits limits = {.depth = 2, .lean = true, .inner = true};
-
-    fputs("'root':{'id':'root','type':'union','children':[", out);
-    for (int i = 0; i < 24; i++) {
-        const struct node_type *type;
-        do {
-            type = node_type_at(random_below(random, node_type_count()));
-        } while (type->kind == KIND_CODE || type->kind == KIND_MODEL || type->kind == KIND_FLAT ||
-                 type->kind == KIND_EQUATION);
-        fputs(i > 0 ? "," : "", out);
-        fprintf(out,
-                "{'id':'g%d','type':'group','material':'m%d','transform':{'translation':"
-                "[%.3f,0,%.3f],'scale':[0.35,0.35,0.35]},'children':[",
-                i, i % 4, i % 6 - 2.5, i / 6 - 1.5);
-        random_node(random, out, type, &limits);
-        fputs("]}", out);
-    }
-    fputs("]}}", out);
-}
-
-static struct scene *make_scene(struct random *random, size_t life)
-{
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-
-    assert_non_null(out);
-    fputs(BESIDE, out);
-    if (life % 3 == 1) {
-        write_kinds(random, out);
-    } else {
-        write_scattered(random, out, SCATTERED, 3);
-    }
-    assert_int_equal(fclose(out), 0);
-    struct scene *scene = life % 6 == 5 ? drawing_read(DRAWING_RICH) : json_text_valid_scene(text);
-    free(text);
-    return scene;
-}
-
-/* --- edits --- */
-
-static cJSON *parse(const char *format, ...) __attribute__((format(printf, 1, 2)));
-static cJSON *parse(const char *format, ...)
-{
-    char text[300];
-    struct error err = {0};
-    va_list arguments;
-
-    va_start(arguments, format);
-    const int length = vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    for (int i = 0; i < length; i++) {
-        text[i] = text[i] == '\'' ? '"' : text[i];
-    }
-    cJSON *ops = json_parse(text, (size_t)length, &err);
-    assert_non_null(ops);
-    return ops;
-}
-
-static const struct node *any_child(struct random *random, const struct scene *scene)
-{
-    return scene->root->children[random_below(random, scene->root->child_count)];
-}
-
-/* Something small goes a small way, mostly; numbers, materials, the camera and the floor; lights;
- * what is seen; nodes that come and go. */
-static cJSON *random_ops(struct random *random, const struct scene *scene, int number)
-{
-    const struct node *node = any_child(random, scene);
-    const double *at = record_vector(&node->transform, "translation");
-    const size_t what = random_below(random, 16);
-
-    if (what < 5) {
-        return parse(
-            "[{'op':'set','at':'/nodes/%s/transform/translation','value':[%.9g,%.9g,%.9g]}]",
-            node->id, at[0] + random_between(random, -0.1, 0.1), at[1],
-            at[2] + random_between(random, -0.1, 0.1));
-    }
-    if (what < 8 && scene->materials.count == 4) { /* not of the other scene's */
-        return parse("[{'op':'set','at':'/materials/m2/properties/roughness','value':%.3f}]",
-                     random_between(random, 0, 1));
-    }
-    if (what == 8) {
-        return parse("[{'op':'set','at':'/lights/%s/intensity','value':%.3f}]",
-                     scene->lights.items[0]->name, random_between(random, 1, 5));
-    }
-    if (what == 9) {
-        return parse("[{'op':'set','at':'/nodes/%s/visible','value':%s}]", node->id,
-                     record_number(&node->common, "visible") != 0 ? "false" : "true");
-    }
-    if (what == 10) {
-        return parse("[{'op':'insert','into':'/nodes/%s','before':null,'value':{'id':'new%d',"
-                     "'type':'sphere','transform':{'translation':[0,%.3f,0],'scale':0.4}}}]",
-                     scene->root->id, number, random_between(random, -1, 1));
-    }
-    if (what == 11) {
-        return parse("[{'op':'remove','at':'/nodes/%s'}]", node->id);
-    }
-    if (what < 14) { /* far away, so that another place is looked at */
-        return parse(
-            "[{'op':'set','at':'/nodes/%s/transform/translation','value':[%.9g,%.9g,%.9g]}]",
-            node->id, random_between(random, -2, 2), at[1], random_between(random, -2, 2));
-    }
-    return numeric_edit(random, scene, what == 14);
-}
-
-/* --- pictures --- */
 
 static struct job_desc desc_of(size_t life)
 {
@@ -236,12 +94,12 @@ static void edits_change_what_they_have_to(void **state)
         struct job_desc desc = desc_of(life);
         desc.width /= asked ? 2 : 1;
         desc.height /= asked ? 2 : 1;
-        struct scene *scene = make_scene(&random, life);
+        struct scene *scene = edited_scene(&random, life, SCATTERED);
         const struct pair pair = {resident_create(renderer, scene_copy(scene), 1),
                                   resident_create(forgetful, scene, 1)};
         bool goes = true;
         for (int k = 0; k < EDITS_OF_A_LIFE && goes; k++, i++) {
-            cJSON *ops = random_ops(&random, resident_scene(pair.kept), k);
+            cJSON *ops = edited_scene_ops(&random, resident_scene(pair.kept), k);
             goes = edit(&pair, ops);
             less += goes && check(&pair, &desc, ops) < 1;
             cJSON_Delete(ops);
@@ -270,18 +128,10 @@ static const struct node *highest(const struct scene *scene)
 
 static struct pair scattered(struct random *random, int count, const struct job_desc *desc)
 {
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-
-    assert_non_null(out);
-    fputs(BESIDE, out);
-    write_scattered(random, out, count, 2);
-    assert_int_equal(fclose(out), 0);
-    struct scene *scene = json_text_valid_scene(text);
+    struct scene *scene = edited_scene_scattered(random, count, 2);
     const struct pair pair = {resident_create(renderer, scene_copy(scene), 1),
                               resident_create(forgetful, scene, 1)};
-    free(text);
+
     check(&pair, desc, NULL);
     return pair;
 }
@@ -291,9 +141,9 @@ static double go(const struct pair *pair, const struct job_desc *desc, const str
                  double right, double up)
 {
     const double *at = record_vector(&node->transform, "translation");
-    cJSON *ops =
-        parse("[{'op':'set','at':'/nodes/%s/transform/translation','value':[%.9g,%.9g,%.9g]}]",
-              node->id, at[0] + right, at[1] + up, at[2]);
+    cJSON *ops = edits_format(
+        "[{'op':'set','at':'/nodes/%s/transform/translation','value':[%.9g,%.9g,%.9g]}]", node->id,
+        at[0] + right, at[1] + up, at[2]);
 
     assert_true(edit(pair, ops));
     const double part = check(pair, desc, ops);
@@ -313,7 +163,7 @@ static void a_small_move_draws_little(void **state)
     desc.height *= LARGER;
     const struct pair pair = scattered(&random, MANY, &desc);
     for (int i = 0; i < MOVES; i++) {
-        const struct node *node = any_child(&random, resident_scene(pair.kept));
+        const struct node *node = edited_scene_child(&random, resident_scene(pair.kept));
         assert_true(go(&pair, &desc, node, 0.008, 0) <= 0.2);
     }
     resident_destroy(pair.kept);
@@ -356,7 +206,7 @@ static void a_shape_more_or_less_draws_little(void **state)
     desc.height *= LARGER;
     const struct pair pair = scattered(&random, MANY, &desc);
     for (size_t i = 0; i < sizeof edits / sizeof edits[0]; i++) {
-        cJSON *ops = parse("%s", edits[i]);
+        cJSON *ops = edits_parse(edits[i]);
         assert_true(edit(&pair, ops));
         assert_true(check(&pair, &desc, ops) <= 0.2);
         cJSON_Delete(ops);

@@ -23,6 +23,18 @@ cJSON *edits_parse(const char *text)
     return json;
 }
 
+cJSON *edits_format(const char *format, ...)
+{
+    char text[300];
+    va_list arguments;
+
+    va_start(arguments, format);
+    const int length = vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    assert_in_range(length, 1, sizeof text - 1);
+    return edits_parse(text);
+}
+
 void edits_assert_prints(cJSON *json, const char *expected)
 {
     char *text = json_print(json, false), *wanted = json_text(expected);

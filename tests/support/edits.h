@@ -6,6 +6,8 @@
 #include "protocol/edit.h"
 
 cJSON *edits_parse(const char *text);
+/* Of a text below 300 bytes. */
+cJSON *edits_format(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* The edit has to do `applied` (NULL: what it says) and its inverse to be `inverse` (NULL: not
  * looked at). Takes it back. */
 void edits_assert(struct scene *scene, const char *ops, const char *applied, const char *inverse);
