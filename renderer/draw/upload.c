@@ -5,8 +5,6 @@
 #include <stdlib.h>
 
 #include "protocol/memory.h"
-#include "renderer/engine/tapes.h"
-#include "renderer/gl/tape_texture.h"
 
 struct upload *upload_create(struct field *field)
 {
@@ -23,13 +21,22 @@ struct upload *upload_ref(struct upload *upload)
     return upload;
 }
 
-static void drop_tapes(struct upload *upload, const struct gl *gl)
+static void drop_tapes(struct upload *upload)
 {
-    if (upload->tapes) {
-        gl->DeleteTextures(1, &upload->tapes);
+    if (upload->tapes && shared_tapes_owner(upload->tapes) == upload) {
+        shared_tapes_own(upload->tapes, NULL);
     }
-    upload->tapes = 0;
-    upload->old_tapes = false;
+    shared_tapes_unref(upload->tapes);
+    upload->tapes = NULL;
+}
+
+/* Those of the upload that it was patched of. They have other numbers. */
+static void share_tapes(struct upload *upload, const struct upload *from)
+{
+    struct shared_tapes *tapes = shared_tapes_ref(from->tapes);
+
+    drop_tapes(upload);
+    upload->tapes = tapes;
 }
 
 void upload_unref(struct upload *upload, const struct gl *gl)
@@ -40,7 +47,7 @@ void upload_unref(struct upload *upload, const struct gl *gl)
     for (int i = 0; i < 2; i++) {
         param_buffer_finish(&upload->copies[i].params, gl);
     }
-    drop_tapes(upload, gl);
+    drop_tapes(upload);
     field_unref(upload->field);
     free(upload);
 }
@@ -73,10 +80,12 @@ struct upload *upload_patch(struct upload *from, struct upload *spare, const str
         field_unref(field);
         add_stale(&spare->copies[0].stale, &changed);
         add_stale(&spare->copies[1].stale, &changed);
-        spare->old_tapes = true;
+        share_tapes(spare, from);
         return upload_ref(spare);
     }
-    return upload_create(field);
+    struct upload *upload = upload_create(field);
+    share_tapes(upload, from);
+    return upload;
 }
 
 const struct param_buffer *upload_params(struct upload *upload, const struct gl *gl,
@@ -96,37 +105,19 @@ const struct param_buffer *upload_params(struct upload *upload, const struct gl 
     return params;
 }
 
-/* Of larger cubes, where they would be more than a texture has rows for. */
-static void make_tapes(const struct field *field, const struct gl *gl,
-                       const struct engine_program *program, struct engine_extent extent,
-                       const struct vocabulary *vocabulary, struct engine_tapes *out)
+GLuint upload_tapes(struct upload *upload, const struct gl *gl, struct engine_program *program,
+                    const struct engine_extent *extent)
 {
-    GLint rows = 0;
+    const bool has =
+        upload->tapes && (shared_tapes_owner(upload->tapes) == upload ||
+                          shared_tapes_renew(upload->tapes, program, upload->field, extent));
 
-    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &rows);
-    engine_tapes_make(program, field->params, &extent, vocabulary, out);
-    while (out->count / TAPES_ROW > (size_t)rows && extent.least < extent.reach) {
-        engine_tapes_finish(out);
-        extent.least *= 4;
-        engine_tapes_make(program, field->params, &extent, vocabulary, out);
+    if (!has) {
+        drop_tapes(upload);
+        upload->tapes = shared_tapes_create(gl, program, upload->field, extent);
     }
-}
-
-GLuint upload_tapes(struct upload *upload, const struct gl *gl,
-                    const struct engine_program *program, const struct engine_extent *extent)
-{
-    if (upload->old_tapes) {
-        drop_tapes(upload, gl);
-    }
-    if (!upload->tapes) {
-        struct vocabulary vocabulary = vocabulary_of(upload->field);
-        struct engine_tapes tapes;
-        make_tapes(upload->field, gl, program, *extent, &vocabulary, &tapes);
-        upload->tapes = tape_texture_create(gl, (const uint32_t(*)[4])tapes.texels, tapes.count);
-        engine_tapes_finish(&tapes);
-        vocabulary_finish(&vocabulary);
-    }
-    return upload->tapes;
+    shared_tapes_own(upload->tapes, upload);
+    return shared_tapes_texture(upload->tapes);
 }
 
 struct upload *upload_pool_spare(const struct upload_pool *pool)

@@ -8,6 +8,7 @@
 #include "renderer/engine/engine.h"
 #include "renderer/field/field_patch.h"
 #include "renderer/gl/param_buffer.h"
+#include "shared_tapes.h"
 
 struct upload {
     int references;
@@ -16,8 +17,7 @@ struct upload {
         struct param_buffer params; /* none until they are asked for */
         struct field_span stale;    /* numbers of the field that these are without yet */
     } copies[2];                    /* in a buffer, in a texture */
-    GLuint tapes;                   /* for an interpreter; 0: none are made yet, */
-    bool old_tapes;                 /* or of other numbers */
+    struct shared_tapes *tapes;     /* for an interpreter; NULL: none are made yet */
 };
 
 /* Takes the reference of the field. */
@@ -32,9 +32,10 @@ struct upload *upload_patch(struct upload *from, struct upload *spare, const str
  * programs declare. */
 const struct param_buffer *upload_params(struct upload *upload, const struct gl *gl,
                                          bool in_texture, size_t capacity);
-/* The tapes of the field, made of the program when they are first asked for. */
-GLuint upload_tapes(struct upload *upload, const struct gl *gl,
-                    const struct engine_program *program, const struct engine_extent *extent);
+/* The texture with the tapes of the field, made of the program when they are first asked for, or
+ * renewed. Other uploads may ask for other tapes in it: it is to be asked for before each use. */
+GLuint upload_tapes(struct upload *upload, const struct gl *gl, struct engine_program *program,
+                    const struct engine_extent *extent);
 
 /* The last patched uploads of a scene: the drawn one, the newest, and one to write into. */
 enum { UPLOADS_KEPT = 3 };

@@ -6,6 +6,9 @@
 
 #include "protocol/memory.h"
 
+/* They are many, if more than so many, and a part of all, have changed. */
+enum { MANY_LEAST = 16, MANY_PART = 4 };
+
 /* --- where the numbers of operations lie --- */
 
 static int ascending(const void *a, const void *b)
@@ -149,6 +152,21 @@ uint8_t *changes_of_operations(const struct engine_program *program, const float
         return NULL;
     }
     return changed;
+}
+
+size_t changes_count(const struct engine_program *program, const uint8_t *changed)
+{
+    size_t count = 0;
+
+    for (size_t i = 0; i < program->count; i++) {
+        count += changed[i];
+    }
+    return count;
+}
+
+bool changes_are_many(const struct engine_program *program, size_t count)
+{
+    return count > MANY_LEAST + program->count / MANY_PART;
 }
 
 bool changes_of_materials(const struct field *field, const float *before, const struct field *other,

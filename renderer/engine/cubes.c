@@ -10,8 +10,8 @@
 #include "protocol/memory.h"
 
 enum { KEPT = 4 }; /* at most */
-/* Where more operations than so many, and a part of all, have changed, new cubes cost less. */
-enum { RENEWED_LEAST = 16, RENEWED_PART = 4 };
+/* Of programs of one scene fewer operations are others. */
+enum { OTHER_PART = 4 };
 /* Cubes take at most these parts of the memory there is, and of what the process may take. */
 enum { MEMORY_PART = 8, ALLOWED_PART = 4 };
 
@@ -89,12 +89,9 @@ static bool change(struct cubes *cubes, struct engine_program *program, const fl
 {
     struct material_set materials = {{0}};
     uint8_t *changed = changes_of_operations(program, cubes->params, params);
-    size_t count = 0;
+    const size_t count = changed ? changes_count(program, changed) : 0;
 
-    for (size_t i = 0; changed && i < program->count; i++) {
-        count += changed[i];
-    }
-    if (!changed || count > RENEWED_LEAST + program->count / RENEWED_PART) {
+    if (!changed || changes_are_many(program, count)) {
         free(changed);
         return false;
     }
@@ -120,7 +117,7 @@ static bool are_near(size_t fresh, const struct engine_program *before,
 {
     const size_t lost = before->count + fresh - after->count;
 
-    return fresh <= after->count / RENEWED_PART && lost <= before->count / RENEWED_PART;
+    return fresh <= after->count / OTHER_PART && lost <= before->count / OTHER_PART;
 }
 
 /* In all tapes. Where all that stay have their indices, those that are gone may keep theirs: only

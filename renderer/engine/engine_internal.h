@@ -12,6 +12,7 @@
 #include "trunk.h"
 
 struct cubes;
+struct explored;
 struct extent;
 struct noted;
 struct seen_picture;
@@ -207,7 +208,11 @@ struct engine_width {
                           const float (*points)[3], size_t count, float half, float *out);
     /* Makes cubes where surfaces are, before any ray asks: of a space (mask: field_mask). */
     void (*explore)(const struct engine_program *program, const float *params,
-                    const struct engine_extent *extent, float mask, struct cells *out);
+                    const struct engine_extent *extent, float mask, struct explored *out);
+    /* The same for new numbers of the field. `changed`: as above. */
+    void (*explore_again)(const struct engine_program *program, const float *params,
+                          const struct engine_extent *extent, float mask, const uint8_t *changed,
+                          struct explored *explored);
     /* Makes a level of one of the maps. All levels but the first are made of the first. */
     void (*make_map)(const struct frame_uniforms *frame, struct engine_map maps[ENGINE_MAPS],
                      int number, int level);

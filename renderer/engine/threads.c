@@ -27,6 +27,7 @@ struct crew {
     atomic_uint_least64_t rays;
     atomic_bool paused;
     struct expedition *expedition; /* explore.c */
+    struct survey *survey;         /* survey.c */
     /* Renewing: */
     struct engine_program *program;
     struct cubes *cubes;

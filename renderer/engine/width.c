@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* All of the engine that depends on LANES, the width of its vectors. */
 #include "cubes.h"
+#include "explored.h"
 #include "renderer/crash.h"
 #include "renderer/image/half.h"
 
@@ -18,7 +19,12 @@
 #include "environment_texels.c"
 #include "threads.c"
 
+#include "litter.c"
+
 #include "explore.c"
+#include "survey.c"
+
+#include "explore_again.c"
 
 #define CALL_ROW(row, base, size, one, function)
 #define KERNEL_ROW(type, choices, kind, function)                                                  \
@@ -46,4 +52,5 @@ const struct engine_width NAME(LANES) = {LANES,
                                          hand_destroy,
                                          distances,
                                          explore,
+                                         explore_again,
                                          make_map};

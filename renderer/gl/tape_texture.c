@@ -4,15 +4,18 @@
 #include "renderer/glsl/interface.h"
 #include "texture.h"
 
-GLuint tape_texture_create(const struct gl *gl, const uint32_t (*texels)[4], size_t count)
+GLuint tape_texture_create(const struct gl *gl, size_t rows)
 {
-    const GLsizei rows = (GLsizei)(count / TAPES_ROW);
-
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_TAPES);
-    const GLuint texture = texture_create(gl, GL_RGBA32UI, TAPES_ROW, rows);
-    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, TAPES_ROW, rows, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
-                      texels);
-    return texture;
+    return texture_create(gl, GL_RGBA32UI, TAPES_ROW, (GLsizei)rows);
+}
+
+void tape_texture_write(GLuint texture, const struct gl *gl, size_t first, size_t count,
+                        const uint32_t (*texels)[4])
+{
+    tape_texture_bind(texture, gl);
+    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, (GLint)first, TAPES_ROW, (GLsizei)count, GL_RGBA_INTEGER,
+                      GL_UNSIGNED_INT, texels);
 }
 
 void tape_texture_bind(GLuint texture, const struct gl *gl)

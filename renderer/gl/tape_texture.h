@@ -8,8 +8,11 @@
 
 #include "gl.h"
 
-/* `count` texels, whole rows. The caller deletes the texture. */
-GLuint tape_texture_create(const struct gl *gl, const uint32_t (*texels)[4], size_t count);
+/* Of so many rows, with nothing in them. The caller deletes the texture. */
+GLuint tape_texture_create(const struct gl *gl, size_t rows);
+/* `count` rows from one on. */
+void tape_texture_write(GLuint texture, const struct gl *gl, size_t first, size_t count,
+                        const uint32_t (*texels)[4]);
 void tape_texture_bind(GLuint texture, const struct gl *gl);
 
 #endif

@@ -243,6 +243,19 @@ static struct scene *make_many(int count)
     return scene;
 }
 
+/* The same bytes as of the scene when it is opened. */
+static void is_a_new_scene_s(struct resident *resident)
+{
+    struct drawing own = draw(resident),
+                   other = draw_scene(scene_copy(resident_scene(resident)), RENDER_COMPUTE);
+
+    for (int i = 0; i < AOV_COUNT; i++) {
+        assert_true(drawing_is_same(&own.of[i], &other.of[i]));
+    }
+    drawing_finish(&own);
+    drawing_finish(&other);
+}
+
 static void edits_of_many_shapes_compile_nothing(void **state)
 {
     struct resident *both[2];
@@ -264,6 +277,7 @@ static void edits_of_many_shapes_compile_nothing(void **state)
                  i - 2);
         follow(both, ops);
     }
+    is_a_new_scene_s(both[1]);
     follow(both, "[{'op':'set','at':'/nodes/n7/visible','value':false}]");
     follow(both, "[{'op':'insert','into':'/nodes/all','before':'n0','value':{'type':'box',"
                  "'transform':{'translation':[0,0,2]}}}]");
@@ -315,14 +329,15 @@ static void tapes_are_a_small_part_of_the_scene(void **state)
     struct engine_program *program = engine_program_create(field, 0, 0);
     struct vocabulary vocabulary = vocabulary_of(field);
     const struct engine_extent extent = {.reach = 100, .scale = 5, .least = 0.01f};
-    struct engine_tapes tapes;
+    struct engine_tapes *tapes;
 
     (void)state;
     assert_int_equal(vocabulary.count, 3);
-    engine_tapes_make(program, field->params, &extent, &vocabulary, &tapes);
-    assert_true(tapes.cubes > 1000);
-    assert_true(tapes.words < tapes.cubes * field->instruction_count / 10);
-    engine_tapes_finish(&tapes);
+    tapes = engine_tapes_create(program, field->params, &extent, &vocabulary);
+    const struct engine_tapes_size size = engine_tapes_size(tapes);
+    assert_true(size.cubes > 1000);
+    assert_true(size.words < size.cubes * field->instruction_count / 10);
+    engine_tapes_destroy(tapes);
     vocabulary_finish(&vocabulary);
     engine_program_destroy(program);
     field_unref(field);
