@@ -94,19 +94,19 @@ static void count_new(struct expedition *e, size_t words)
 }
 
 /* Its children with their tapes. What they leave out is forgotten. */
-static void explore_one(struct expedition *e, struct lanes *c, struct litter *litter, size_t at)
+static void explore_one(struct expedition *e, struct lanes *c, struct siblings *siblings, size_t at)
 {
     struct cells *cells = c->cells;
     const size_t used = cells->used;
 
     cells->drops_used = 0;
     cell_split(c, (int32_t)at, e->mask);
-    make_litter(c, &cells->at[at], litter);
+    make_siblings(c, &cells->at[at], siblings);
     for (int k = 0; k < CUBE_CHILDREN; k++) {
         struct cell *child = &cells->at[cells->at[at].children + k];
         child->made = true;
-        if (litter->own >> k & 1) {
-            add_tape(cells, child, litter->tapes[k], litter->counts[k]);
+        if (siblings->own >> k & 1) {
+            add_tape(cells, child, siblings->tapes[k], siblings->counts[k]);
         }
     }
     count_new(e, cells->used - used);
@@ -115,25 +115,25 @@ static void explore_one(struct expedition *e, struct lanes *c, struct litter *li
 /* The cubes from one on, whose children follow them. */
 static void explore_all(struct expedition *e, struct lanes *c, size_t at)
 {
-    struct litter litter = {0};
+    struct siblings siblings = {0};
 
     for (; at < c->cells->count; at++) {
         if (is_worth_exploring(e, c->cells, &c->cells->at[at])) {
-            explore_one(e, c, &litter, at);
+            explore_one(e, c, &siblings, at);
         }
     }
-    litter_finish(&litter);
+    siblings_finish(&siblings);
 }
 
 /* Level by level, until so many cubes of one are worth exploring that threads can share them. */
 static void explore_largest(struct expedition *e, struct lanes *c)
 {
-    struct litter litter = {0};
+    struct siblings siblings = {0};
     size_t first = 0, end = 0;
 
     do {
         for (size_t i = 0; i < e->count; i++) {
-            explore_one(e, c, &litter, e->heads[i]);
+            explore_one(e, c, &siblings, e->heads[i]);
         }
         first = end;
         end = c->cells->count;
@@ -145,7 +145,7 @@ static void explore_largest(struct expedition *e, struct lanes *c)
             }
         }
     } while (e->count > 0 && e->count < EXPLORED_PIECES);
-    litter_finish(&litter);
+    siblings_finish(&siblings);
 }
 
 static void begin_piece(const struct cells *cells, const struct cell *cell, struct cells *out)

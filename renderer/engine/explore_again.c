@@ -8,7 +8,7 @@ struct revision {
     struct expedition *expedition;
     struct explored *explored;
     uint8_t *findings; /* of the survey */
-    struct litter litter;
+    struct siblings siblings;
 };
 
 /* A cube as it was: the place of its tape, and whether another tape is its own now. `near`: of so
@@ -51,8 +51,8 @@ static void leave_children(struct revision *r, int32_t at, uint32_t tape)
 static void put_tape(struct revision *r, struct cell *child, int number)
 {
     struct explored *explored = r->explored;
-    const uint32_t *words = r->litter.tapes[number];
-    const uint32_t count = r->litter.counts[number];
+    const uint32_t *words = r->siblings.tapes[number];
+    const uint32_t count = r->siblings.counts[number];
 
     if (explored_take_place(explored, count, &child->tape)) {
         child->count = count;
@@ -73,11 +73,11 @@ static void explore_below(struct revision *r, int32_t at)
     explored->cells.drops_used = 0;
     cell_split(c, at, r->expedition->mask);
     explored_put_children(explored, explored_cell(r, at));
-    make_litter(c, explored_cell(r, at), &r->litter);
+    make_siblings(c, explored_cell(r, at), &r->siblings);
     const int32_t children = explored_cell(r, at)->children;
     for (int k = 0; k < CUBE_CHILDREN; k++) {
         explored_cell(r, children + k)->made = true;
-        if (r->litter.own >> k & 1) {
+        if (r->siblings.own >> k & 1) {
             put_tape(r, explored_cell(r, children + k), k);
         }
         explored_mark_cube(explored, (size_t)(children + k));
@@ -98,9 +98,9 @@ static bool follow_parent(struct revision *r, struct cell *parent, int number, s
 {
     struct explored *explored = r->explored;
     struct cell *child = explored_cell(r, parent->children + number);
-    const bool shared = child->tape == past.tape, own = r->litter.own >> number & 1;
+    const bool shared = child->tape == past.tape, own = r->siblings.own >> number & 1;
 
-    if (own && !shared && litter_is_same(&r->litter, &explored->cells, parent, number)) {
+    if (own && !shared && sibling_is_same(&r->siblings, &explored->cells, parent, number)) {
         return false;
     }
     if (!shared) {
@@ -125,7 +125,7 @@ static void explore_children_again(struct revision *r, int32_t at, struct prior 
 
     memcpy(before, cells->at + children, sizeof before);
     look_anew(r->renewal.c, at, r->expedition->mask);
-    make_litter(r->renewal.c, cell, &r->litter);
+    make_siblings(r->renewal.c, cell, &r->siblings);
     struct prior priors[CUBE_CHILDREN];
     for (int k = 0; k < CUBE_CHILDREN; k++) {
         priors[k].other = follow_parent(r, cell, k, past);
@@ -182,7 +182,7 @@ static void explore_again(const struct engine_program *program, const float *par
     atomic_store(&e.cubes, explored->cells.count);
     atomic_store(&e.words, explored->cells.used - explored->free_words);
     explore_cell_again(&r, 0, (struct prior){.tape = explored->cells.at[0].tape});
-    litter_finish(&r.litter);
+    siblings_finish(&r.siblings);
     free(r.findings);
     explored->limited = atomic_load(&e.limited);
     looker_destroy(looker);

@@ -31,14 +31,14 @@ static void survey_list(struct survey *s, int32_t at)
     }
 }
 
-static bool litter_is_same(const struct litter *litter, const struct cells *cells,
-                           const struct cell *parent, int number)
+static bool sibling_is_same(const struct siblings *siblings, const struct cells *cells,
+                            const struct cell *parent, int number)
 {
     const struct cell *child = &cells->at[parent->children + number];
-    const bool own = litter->own >> number & 1, has_own = child->tape != parent->tape;
+    const bool own = siblings->own >> number & 1, has_own = child->tape != parent->tape;
 
-    return own == has_own && (!own || (child->count == litter->counts[number] &&
-                                       memcmp(cells->tapes + child->tape, litter->tapes[number],
+    return own == has_own && (!own || (child->count == siblings->counts[number] &&
+                                       memcmp(cells->tapes + child->tape, siblings->tapes[number],
                                               child->count * sizeof *cells->tapes) == 0));
 }
 
@@ -54,7 +54,7 @@ static void look_anew(struct lanes *c, int32_t at, float mask)
 }
 
 /* Its children stay as they are. */
-static bool survey_one(struct survey *s, struct lanes *c, struct litter *litter, int32_t at)
+static bool survey_one(struct survey *s, struct lanes *c, struct siblings *siblings, int32_t at)
 {
     struct cell *cell = &c->cells->at[at], *children = &c->cells->at[cell->children];
     bool same = true;
@@ -64,9 +64,9 @@ static bool survey_one(struct survey *s, struct lanes *c, struct litter *litter,
         before[k] = children[k].distance;
     }
     look_anew(c, at, s->expedition->mask);
-    make_litter(c, cell, litter);
+    make_siblings(c, cell, siblings);
     for (int k = 0; k < CUBE_CHILDREN; k++) {
-        same = same && litter_is_same(litter, c->cells, cell, k) &&
+        same = same && sibling_is_same(siblings, c->cells, cell, k) &&
                memcmp(&children[k].distance, &before[k], sizeof before[k]) == 0;
         children[k].distance = before[k];
     }
@@ -81,7 +81,7 @@ static void survey_some(struct crew *crew)
     struct looker *looker = looker_create(e->program, e->params, e->extent->reach);
     struct lanes *c = &looker->lanes;
     struct cells view = *s->cells;
-    struct litter litter = {0};
+    struct siblings siblings = {0};
     size_t i;
 
     view.drops = NULL;
@@ -89,10 +89,10 @@ static void survey_some(struct crew *crew)
     c->cells = &view;
     while ((i = (size_t)atomic_fetch_add(&crew->next, 1)) < s->count) {
         const uint32_t at = s->cubes[i];
-        s->findings[at] = survey_one(s, c, &litter, (int32_t)at) ? SURVEY_SAME : SURVEY_OTHER;
+        s->findings[at] = survey_one(s, c, &siblings, (int32_t)at) ? SURVEY_SAME : SURVEY_OTHER;
     }
     free(view.drops);
-    litter_finish(&litter);
+    siblings_finish(&siblings);
     looker_destroy(looker);
 }
 

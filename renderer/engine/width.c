@@ -19,7 +19,7 @@
 #include "environment_texels.c"
 #include "threads.c"
 
-#include "litter.c"
+#include "siblings.c"
 
 #include "explore.c"
 #include "survey.c"

@@ -2,7 +2,7 @@
 /* The tapes of all eight children of a cube at once: what is asked for each operation is asked for
  * all of them, by a bit for each. make_tape() says the same of one child. */
 
-struct litter {
+struct siblings {
     uint32_t *words;
     size_t room;
     uint32_t *tapes[CUBE_CHILDREN], counts[CUBE_CHILDREN];
@@ -14,73 +14,74 @@ struct needs {
     uint8_t distance[FIELD_SLOTS_MAX], point[FIELD_SLOTS_MAX];
 };
 
-static void litter_add(struct litter *litter, unsigned children, uint32_t word)
+static void siblings_add(struct siblings *siblings, unsigned children, uint32_t word)
 {
     for (; children; children &= children - 1) {
-        *--litter->tapes[__builtin_ctz(children)] = word;
+        *--siblings->tapes[__builtin_ctz(children)] = word;
     }
 }
 
 /* Both operands, or what is left of them. */
-static void litter_combine(struct litter *litter, struct needs *needs, const struct operation *in,
-                           uint32_t word, uint16_t drops)
+static void siblings_combine(struct siblings *siblings, struct needs *needs,
+                             const struct operation *in, uint32_t word, uint16_t drops)
 {
     const unsigned need = needs->distance[in->a], both = need & ~(unsigned)(drops >> 8),
                    second = both & drops;
 
     needs->distance[in->a] &= (uint8_t)~second;
     needs->distance[in->b] |= (uint8_t)both;
-    litter_add(litter, both & ~second, word);
-    litter_add(litter, second, word | (in->rule == SDF_FIRST ? TAPE_NEGATE : TAPE_MOVE));
+    siblings_add(siblings, both & ~second, word);
+    siblings_add(siblings, second, word | (in->rule == SDF_FIRST ? TAPE_NEGATE : TAPE_MOVE));
 }
 
 /* Whole. `from`: its last word; answers how many are before that. */
-static uint32_t litter_loop(struct litter *litter, struct needs *needs, const struct operation *in,
-                            const uint32_t *from)
+static uint32_t siblings_loop(struct siblings *siblings, struct needs *needs,
+                              const struct operation *in, const uint32_t *from)
 {
     const struct operation *begin = in - in->length;
     const unsigned need = needs->distance[in->a];
 
     for (uint32_t k = 0; k <= in->length; k++) {
-        litter_add(litter, need, *(from - k));
+        siblings_add(siblings, need, *(from - k));
     }
     needs->distance[begin->a] &= (uint8_t)~need;
     needs->point[begin->point] |= (uint8_t)need;
     return in->length;
 }
 
-static void litter_begin(struct litter *litter, const struct cell *parent)
+static void siblings_begin(struct siblings *siblings, const struct cell *parent)
 {
     const size_t room = (size_t)CUBE_CHILDREN * parent->count;
 
-    if (litter->room < room) {
-        litter->room = room;
-        litter->words = memory_resize(litter->words, room, sizeof *litter->words);
+    if (siblings->room < room) {
+        siblings->room = room;
+        siblings->words = memory_resize(siblings->words, room, sizeof *siblings->words);
     }
-    litter->own = (parent->dropping | parent->dropping >> 8) & 0xff;
+    siblings->own = (parent->dropping | parent->dropping >> 8) & 0xff;
     for (int k = 0; k < CUBE_CHILDREN; k++) {
-        litter->tapes[k] = litter->words + (size_t)(k + 1) * parent->count;
+        siblings->tapes[k] = siblings->words + (size_t)(k + 1) * parent->count;
     }
 }
 
-static void litter_end(struct litter *litter, const struct cell *parent)
+static void siblings_end(struct siblings *siblings, const struct cell *parent)
 {
     for (int k = 0; k < CUBE_CHILDREN; k++) {
-        const uint32_t *end = litter->words + (size_t)(k + 1) * parent->count;
-        litter->counts[k] = (uint32_t)(end - litter->tapes[k]);
+        const uint32_t *end = siblings->words + (size_t)(k + 1) * parent->count;
+        siblings->counts[k] = (uint32_t)(end - siblings->tapes[k]);
     }
 }
 
-static void make_litter(const struct lanes *c, const struct cell *parent, struct litter *litter)
+static void make_siblings(const struct lanes *c, const struct cell *parent,
+                          struct siblings *siblings)
 {
     const struct operation *operations = c->program->operations;
     const uint32_t *from = cell_tape(c->cells, parent);
     const uint16_t *drops = cell_drops(c->cells, parent);
     struct needs needs = {{0}, {0}};
 
-    litter_begin(litter, parent);
-    needs.distance[0] = (uint8_t)litter->own;
-    for (uint32_t i = litter->own ? parent->count : 0; i-- > 0;) {
+    siblings_begin(siblings, parent);
+    needs.distance[0] = (uint8_t)siblings->own;
+    for (uint32_t i = siblings->own ? parent->count : 0; i-- > 0;) {
         const uint32_t word = from[i];
         const struct operation *in = &operations[word & TAPE_INDEX];
         const bool makes_point = in->op == FIELD_TRANSFORM || in->op == FIELD_WARP;
@@ -88,9 +89,9 @@ static void make_litter(const struct lanes *c, const struct cell *parent, struct
         if (!need) {
             i -= in->op == FIELD_LOOP_END ? in->length : 0;
         } else if (in->op == FIELD_LOOP_END) {
-            i -= litter_loop(litter, &needs, in, from + i);
+            i -= siblings_loop(siblings, &needs, in, from + i);
         } else if (in->op == FIELD_COMBINE && !(word & ~(uint32_t)TAPE_INDEX)) {
-            litter_combine(litter, &needs, in, word, drops[i]);
+            siblings_combine(siblings, &needs, in, word, drops[i]);
         } else {
             if (makes_point) {
                 needs.point[in->out] = 0;
@@ -102,13 +103,13 @@ static void make_litter(const struct lanes *c, const struct cell *parent, struct
             } else if (makes_point || in->op == FIELD_SHAPE || in->op == FIELD_AFTER) {
                 needs.point[in->point] |= (uint8_t)need;
             }
-            litter_add(litter, need, word);
+            siblings_add(siblings, need, word);
         }
     }
-    litter_end(litter, parent);
+    siblings_end(siblings, parent);
 }
 
-static void litter_finish(struct litter *litter)
+static void siblings_finish(struct siblings *siblings)
 {
-    free(litter->words);
+    free(siblings->words);
 }
