@@ -169,13 +169,23 @@ bool changes_are_many(const struct engine_program *program, size_t count)
     return count > MANY_LEAST + program->count / MANY_PART;
 }
 
+static bool has_same_shaders(const struct field *a, const struct field *b)
+{
+    bool same = a->shader_count == b->shader_count;
+
+    for (size_t i = 0; i < a->shader_count && same; i++) {
+        same = a->shaders[i].hash == b->shaders[i].hash;
+    }
+    return same;
+}
+
 bool changes_of_materials(const struct field *field, const float *before, const struct field *other,
                           const float *after, struct material_set *out)
 {
     const size_t stride = 4 * field->material_stride;
 
     if (field->material_stride != other->material_stride ||
-        field->material_count != other->material_count) {
+        field->material_count != other->material_count || !has_same_shaders(field, other)) {
         return false;
     }
     before += 4 * field->material_base;

@@ -39,7 +39,8 @@ uint8_t *changes_of_operations(const struct engine_program *program, const float
 size_t changes_count(const struct engine_program *program, const uint8_t *changed);
 /* Whether what is made of all of them costs less anew than renewed. */
 bool changes_are_many(const struct engine_program *program, size_t count);
-/* Adds the materials of a field whose numbers differ in the other. False: they have other ones. */
+/* Adds the materials of a field whose numbers differ in the other. False: they have other ones, or
+ * other shaders. */
 bool changes_of_materials(const struct field *field, const float *before, const struct field *other,
                           const float *after, struct material_set *out);
 
