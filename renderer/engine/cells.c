@@ -42,6 +42,18 @@ static void tape_room(struct cells *cells, size_t count)
     }
 }
 
+/* The tape of all operations, which the root has. */
+static uint32_t add_whole_tape(struct cells *cells, size_t count)
+{
+    const size_t at = cells->used;
+
+    tape_room(cells, count);
+    for (size_t i = 0; i < count; i++) {
+        cells->tapes[cells->used++] = (uint32_t)i;
+    }
+    return (uint32_t)at;
+}
+
 /* The index of so many, 0. */
 static uint32_t drops_add(struct cells *cells, size_t count)
 {
@@ -91,13 +103,11 @@ static void cells_begin(struct lanes *c)
     cells->count = 0;
     cells->used = cells->drops_used = cells->wasted = 0;
     cells->times++;
-    tape_room(cells, c->program->count);
-    for (size_t i = 0; i < c->program->count; i++) {
-        cells->tapes[cells->used++] = (uint32_t)i;
-    }
+    const uint32_t tape = add_whole_tape(cells, c->program->count);
     struct cell *root = cell_add(cells);
     *root = (struct cell){.bits = GRID_BITS,
                           .half = half,
+                          .tape = tape,
                           .count = (uint32_t)c->program->count,
                           .parent = -1,
                           .trunk = trunk_of(c, half),

@@ -243,13 +243,9 @@ static struct past renew_root(struct renewal *r)
         past.other = words[i] != i;
     }
     if (past.other) {
-        tape_room(cells, count);
-        root->tape = (uint32_t)cells->used;
+        root->tape = add_whole_tape(cells, count);
         root->count = (uint32_t)count;
         root->splits = count > CELL_SHORT;
-        for (size_t i = 0; i < count; i++) {
-            cells->tapes[cells->used++] = (uint32_t)i;
-        }
         cells->wasted += past.count;
     }
     return past;

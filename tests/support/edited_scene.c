@@ -65,38 +65,48 @@ static void write_kinds(struct random *random, FILE *out)
     fputs("]}}", out);
 }
 
+static FILE *begin_text(char **text, size_t *length)
+{
+    FILE *out = open_memstream(text, length);
+
+    assert_non_null(out);
+    fputs(BESIDE, out);
+    return out;
+}
+
+static struct scene *end_text(FILE *out, char **text)
+{
+    assert_int_equal(fclose(out), 0);
+    struct scene *scene = json_text_valid_scene(*text);
+    free(*text);
+    return scene;
+}
+
 struct scene *edited_scene_scattered(struct random *random, int count, size_t materials)
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
+    FILE *out = begin_text(&text, &length);
 
-    assert_non_null(out);
-    fputs(BESIDE, out);
     write_scattered(random, out, count, materials);
-    assert_int_equal(fclose(out), 0);
-    struct scene *scene = json_text_valid_scene(text);
-    free(text);
-    return scene;
+    return end_text(out, &text);
+}
+
+static struct scene *scene_of_kinds(struct random *random)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = begin_text(&text, &length);
+
+    write_kinds(random, out);
+    return end_text(out, &text);
 }
 
 struct scene *edited_scene(struct random *random, size_t life, int count)
 {
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-
-    assert_non_null(out);
-    fputs(BESIDE, out);
-    if (life % 3 == 1) {
-        write_kinds(random, out);
-    } else {
-        write_scattered(random, out, count, 3);
-    }
-    assert_int_equal(fclose(out), 0);
-    struct scene *scene = life % 6 == 5 ? drawing_read(DRAWING_RICH) : json_text_valid_scene(text);
-    free(text);
-    return scene;
+    return life % 6 == 5   ? drawing_read(DRAWING_RICH)
+           : life % 3 == 1 ? scene_of_kinds(random)
+                           : edited_scene_scattered(random, count, 3);
 }
 
 const struct node *edited_scene_child(struct random *random, const struct scene *scene)
