@@ -243,6 +243,7 @@ struct dispatch_block {
     struct noted *noted; /* what pixels depend on; NULL: not recorded */                           \
     int threads;         /* that have cells */                                                     \
     struct machine *machine;                                                                       \
+    vb waiting; /* lanes that were told to ask again */                                            \
     vf **frames;
 
 #ifdef LANES

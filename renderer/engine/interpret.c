@@ -371,7 +371,7 @@ static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, vf distance, vf e
     if (c->program->count <= BOUND_TAPE) {
         return spmd_map(c, m, p);
     }
-    vb ask = m & (enough < (float)FIELD_FAR);
+    vb ask = m & ~c->waiting & (enough < (float)FIELD_FAR);
     const struct spots spots = spots_of(&c->spaces[0], p); /* the same in all spaces */
     while (lanes_any(ask)) {
         const int first = lanes_first(ask);
@@ -386,7 +386,9 @@ static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, vf distance, vf e
         }
         ask &= ~held;
     }
-    return lanes_any(m) ? turn(c, m, p, distance, d) : d;
+    d = lanes_any(m) ? turn(c, m, p, distance, d) : d;
+    c->waiting = m & (d == WAITING);
+    return d;
 }
 
 static vb spmd_field_waits(struct lanes *c, vb m, vf d)
