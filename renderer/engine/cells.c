@@ -5,7 +5,7 @@
  * own. Cubes are those of a grid, by whose whole numbers they are found. */
 
 #define LOOSE 1.1f             /* of its half: the points of a vector need not be in one cube */
-#define CELL_PIXELS 4          /* half of the smallest, in footprints */
+#define CELL_PIXELS 8          /* half of the smallest, in footprints */
 #define CELL_NEAR 0.15f        /* half of the smallest, as a part of the distance to a surface */
 #define CELL_SHORT 3           /* such a tape is not made shorter */
 #define CELL_RUN 4             /* operations that take as long as it does to begin a tape */
@@ -16,7 +16,8 @@
 #define WASTED_LIMIT (1 << 21) /* words of tapes that are not used, which are let be */
 #define BOUND_NEAR 2           /* a cube is far from surfaces that are so many of its halves away */
 #define BOUND_TAPE 96          /* operations that take longer than more steps by a bound */
-#define VALUE_TAPE 12          /* of so many operations, what a tape gives is noted */
+#define VALUE_LEAST 12         /* of so many operations, what a tape gives is noted; */
+#define VALUE_MOST 24          /* of so many in a field of four times as many */
 /* Of the root's side: as many as a float has. Place 0, 0, 0 is a third of the way along each axis
  * of the grid, and so a third or two thirds of the way through each cube around it. In the middle
  * of the grid, a scene would lie in eight cubes of every size. */
