@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "huge_pages.h"
 #include "protocol/suggest.h"
 
 /* clang-format off */
@@ -12,7 +13,7 @@ static const struct command table[COMMAND_COUNT] = {
         .doc = "Serve the editor, the live connections and the REST interface on one port.",
         .more = "Prints the address when ready. SIGTERM and SIGINT drain: clients are told, edits "
                 "are stored, then the program ends."},
-    [COMMAND_RENDER] = {"render", .operands = "SCENE.json", .run = command_render,
+    [COMMAND_RENDER] = {"render", .operands = "SCENE.json", .draws = true, .run = command_render,
         .doc = "Draw a scene into a file: the same pixels as the server's.",
         .more = "SCENE.json may be `-` for stdin, or `example:NAME` for a scene that is built in."},
     [COMMAND_CHECK] = {"check", .operands = "SCENE.json", .many = true, .run = command_check,
@@ -47,9 +48,9 @@ static const struct command table[COMMAND_COUNT] = {
         .doc = "Print the JSON Schema of scene documents, with the registry of nodes in it."},
     [COMMAND_DOCTOR] = {"doctor", .run = command_doctor,
         .doc = "Say what this machine draws with and why, and what is missing."},
-    [COMMAND_BENCH] = {"bench", .run = command_bench,
+    [COMMAND_BENCH] = {"bench", .draws = true, .run = command_bench,
         .doc = "Measure drawing, compiling, encoding and storing; prints JSON."},
-    [COMMAND_WORKER] = {"worker", .hidden = true, .run = command_worker,
+    [COMMAND_WORKER] = {"worker", .hidden = true, .draws = true, .run = command_worker,
         .doc = "The render process of `serve`, which alone starts it."},
 };
 /* clang-format on */
@@ -163,6 +164,9 @@ int command_main(int argc, char **argv)
     }
     const struct command *command = command_find(name);
     if (command) {
+        if (command->draws) {
+            huge_pages_use(argv);
+        }
         return run(command, argc - 2, argv + 2);
     }
     return unknown(name);

@@ -32,6 +32,7 @@ struct command {
     bool many;            /* more than one operand is allowed */
     int exactly;          /* so many operands, whose names `operands` has; 0: as above */
     bool hidden;          /* for the program itself; help does not show it */
+    bool draws;           /* in its own process: huge_pages.h */
     const char *doc;      /* one line */
     const char *more;     /* the rest of --help, may be NULL */
     int (*run)(const struct options *options);

@@ -6,6 +6,7 @@
 
 #include "command.h"
 #include "files.h"
+#include "huge_pages.h"
 #include "protocol/memory.h"
 #include "server/serve.h"
 
@@ -116,6 +117,7 @@ int command_serve(const struct options *options)
         .code_refused = switch_find(option_text(options, OPTION_CODE)) == 0,
         .log_level = option_text(options, OPTION_LOG_LEVEL),
     };
+    huge_pages_ask(); /* for its workers */
     const int status = run(options, &params);
     free(token);
     return status;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The render process is killed, stopped, and killed again by a scene, while clients drag.
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
 import { after, before, test } from 'node:test';
 import { ask, counter, cpuSecondsOfAll, logged, sleep, startDaemon, until } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
@@ -21,6 +22,11 @@ before(async () => {
     await ask(daemon, 'POST', '/v1/scenes?id=s', DOCUMENT);
 });
 after(() => daemon.stop());
+
+test('it finds in its environment that malloc() asks for huge pages', () => {
+    const environment = fs.readFileSync(`/proc/${daemon.worker()}/environ`, 'utf8').split('\0');
+    assert.ok(environment.some((each) => /^GLIBC_TUNABLES=(.*:)?glibc\.malloc\.hugetlb=\d/.test(each)), `${environment}`);
+});
 
 /** Moves the camera and a number until stop() is called. */
 function drag(live) {
