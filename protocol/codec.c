@@ -7,12 +7,12 @@ static const struct {
     const char *name, *mime;
     bool raw;
 } rows[CODEC_COUNT] = {
-    [CODEC_JPEG] = {"jpg", "image/jpeg"},
-    [CODEC_PNG] = {"png", "image/png"},
+    [CODEC_JPEG] = {"jpg", .mime = "image/jpeg"},
+    [CODEC_PNG] = {"png", .mime = "image/png"},
     [CODEC_NPY] = {"npy", "application/x-npy", true},
     [CODEC_HDR] = {"hdr", "image/vnd.radiance", true},
-    [CODEC_GUIDE] = {"guide", "application/octet-stream"},
-    [CODEC_ZIP] = {"zip", "application/zip"},
+    [CODEC_GUIDE] = {"guide", .mime = "application/octet-stream"},
+    [CODEC_ZIP] = {"zip", .mime = "application/zip"},
 };
 
 const char *codec_choice(size_t index)

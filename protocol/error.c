@@ -24,8 +24,8 @@ static void replace_malformed(char *text)
     }
 }
 
-static bool fill(struct error *err, enum error_kind kind, const char *place, const char *format,
-                 va_list args)
+static bool __attribute__((format(printf, 4, 0)))
+fill(struct error *err, enum error_kind kind, const char *place, const char *format, va_list args)
 {
     char text[sizeof err->message]; /* the arguments may point into err itself */
 

@@ -33,5 +33,5 @@ const struct record_type ideal_type = {
                 "(coprime), and those with a third element in a chain between them."},
         {"divide", PARAM_EQUATION,
          .doc = "A polynomial that is divided by the basis, with its quotients."},
-        {NULL}}};
+        {.name = NULL}}};
 /* clang-format on */

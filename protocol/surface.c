@@ -40,7 +40,7 @@ const struct record_type surface_question_type = {
          .zero = "around the patch",
          .doc = "Full lengths of the box about the origin that cuts the implicit surface; where "
                 "one is 0, the box goes around the patch."},
-        {NULL}}};
+        {.name = NULL}}};
 /* clang-format on */
 
 static bool check_parts(const struct record *asked, struct error *err)

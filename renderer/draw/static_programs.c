@@ -5,7 +5,7 @@ static const struct pass_source sources[STATIC_COUNT] = {
     [STATIC_CAMERA] = {true, .file = "camera_pass.glsl"},
     [STATIC_TRANSMISSION] = {true, .file = "transmission_pass.glsl"},
     [STATIC_SHADE] = {true, .file = "shade_pass.glsl"},
-    [STATIC_PLAIN] = {true, "#define PLAIN\n", "shade_pass.glsl"},
+    [STATIC_PLAIN] = {true, "#define PLAIN\n", .file = "shade_pass.glsl"},
     [STATIC_ACCUMULATE] = {true, .file = "accumulate_pass.glsl"},
     [STATIC_EDGE_DETECT] = {true, .file = "edge_detect_pass.glsl"},
     [STATIC_RESAMPLE] = {true, .file = "resample_pass.glsl"},

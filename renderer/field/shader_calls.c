@@ -20,7 +20,7 @@ static void write_params(const struct shader_writer *w, const struct field_instr
             fprintf(w->out, ", %u", in->choices >> (8 * --choice) & 0xff);
         } else if (places[i].vec4 >= 0) {
             fprintf(w->out, ", P(%u).%.*s", vec4 + (uint32_t)places[i].vec4, places[i].count,
-                    "xyzw" + places[i].component);
+                    &"xyzw"[places[i].component]);
         }
     }
 }
@@ -31,7 +31,7 @@ void shader_write_places(const struct shader_writer *w, const struct field_code 
     for (int i = 0; i < code->place_count; i++) {
         const struct param_slot *place = &code->places[i];
         const uint32_t vec4 = first + (uint32_t)place->vec4;
-        fprintf(w->out, ", %s%u).%.*s", base, vec4, place->count, "xyzw" + place->component);
+        fprintf(w->out, ", %s%u).%.*s", base, vec4, place->count, &"xyzw"[place->component]);
     }
 }
 
