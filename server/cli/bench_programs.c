@@ -136,6 +136,7 @@ static bool add_union(struct renderer *renderer, int count, const struct bench_e
     return ok;
 }
 
+/* null where the device has no such stage. */
 static cJSON *rows_of(const struct renderer_params *params, const struct way *way,
                       const struct bench_effort *effort, struct error *err)
 {
@@ -144,8 +145,13 @@ static cJSON *rows_of(const struct renderer_params *params, const struct way *wa
     own.stage = way->stage;
     own.programs = way->programs;
     struct renderer *renderer = renderer_create(&own, err);
+    if (!renderer) {
+        fprintf(stderr, "%s: %s\n", way->name, err->message);
+        *err = (struct error){0};
+        return cJSON_CreateNull();
+    }
     cJSON *rows = cJSON_CreateObject();
-    bool ok = renderer != NULL;
+    bool ok = true;
     for (int i = 0; ok && i < EXAMPLES; i++) {
         ok = add_example(renderer, examples[i], effort, rows, err);
     }
