@@ -448,7 +448,7 @@ static void shaders_end_at_the_first_root(void **state)
 
 /* --- what a picture costs --- */
 
-enum { TURNS = 3, COST_WIDTH = 640, COST_HEIGHT = 360 };
+enum { TURNS_LEAST = 3, TURNS_MOST = 20, COST_WIDTH = 640, COST_HEIGHT = 360 };
 
 /* Of what a mandelbulb costs, in which arithmetic alone counts, in half of the width and height.
  * Where that takes 0.24 s of the processor, these are 60, 36 and 60 ms of two. */
@@ -485,31 +485,56 @@ static struct scene *scene_with(const char *root)
     return drawing_parse(json);
 }
 
-/* By turns, the least of each; beyond a picture of nothing. */
+/* The least that was seen; of a busy machine it takes some turns to see it. */
+struct seen_costs {
+    double empty, unit, each[COSTS];
+};
+
+static void measure_costs(struct seen_costs *seen)
+{
+    char text[TEXT];
+
+    seen->empty = fmin(seen->empty, seconds_of(scene_with("'type':'sphere','visible':false"),
+                                               COST_WIDTH, COST_HEIGHT));
+    seen->unit = fmin(
+        seen->unit, seconds_of(scene_with("'type':'mandelbulb'"), COST_WIDTH / 2, COST_HEIGHT / 2));
+    for (int i = 0; i < COSTS; i++) {
+        const struct equation_field *field = field_named(costs[i].field);
+        read_text(field, text);
+        seen->each[i] =
+            fmin(seen->each[i], seconds_of(scene_of(field, text, "<="), COST_WIDTH, COST_HEIGHT));
+    }
+}
+
+/* Beyond a picture of nothing. */
+static double part_of(const struct seen_costs *seen, int i)
+{
+    return (seen->each[i] - seen->empty) / (seen->unit - seen->empty / 4);
+}
+
+static bool cost_too_much(const struct seen_costs *seen)
+{
+    bool much = false;
+
+    for (int i = 0; i < COSTS; i++) {
+        much = much || !(part_of(seen, i) < costs[i].most);
+    }
+    return much;
+}
+
 static void pictures_cost_little(void **state)
 {
-    double empty = INFINITY, unit = INFINITY, each[COSTS] = {INFINITY, INFINITY, INFINITY};
-    char text[TEXT];
+    struct seen_costs seen = {INFINITY, INFINITY, {INFINITY, INFINITY, INFINITY}};
     (void)state;
 
-    for (int turn = 0; turn < TURNS; turn++) {
-        empty = fmin(empty, seconds_of(scene_with("'type':'sphere','visible':false"), COST_WIDTH,
-                                       COST_HEIGHT));
-        unit = fmin(unit,
-                    seconds_of(scene_with("'type':'mandelbulb'"), COST_WIDTH / 2, COST_HEIGHT / 2));
-        for (int i = 0; i < COSTS; i++) {
-            const struct equation_field *field = field_named(costs[i].field);
-            read_text(field, text);
-            each[i] =
-                fmin(each[i], seconds_of(scene_of(field, text, "<="), COST_WIDTH, COST_HEIGHT));
-        }
+    for (int turn = 0; turn < TURNS_LEAST || (turn < TURNS_MOST && cost_too_much(&seen)); turn++) {
+        measure_costs(&seen);
     }
     for (int i = 0; i < COSTS; i++) {
-        const double part = (each[i] - empty) / (unit - empty / 4);
         print_message("# %-13s %.0f ms, %.2f of a mandelbulb\n", costs[i].field,
-                      1e3 * (each[i] - empty), part);
-        assert_true(part < costs[i].most);
+                      1e3 * (seen.each[i] - seen.empty), part_of(&seen, i));
     }
+    assert_false(cost_too_much(&seen));
 }
 
 /* --- what is unresolved --- */
