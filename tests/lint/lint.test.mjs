@@ -15,6 +15,7 @@ const C = '/* SPDX-License-Identifier: MIT */\n';
 const TS = '// SPDX-License-Identifier: MIT\n';
 
 const CLEAN = {
+    Makefile: '# SPDX-License-Identifier: MIT\nwarnings := -Wextra\n',
     'protocol/scene.c': `${C}#include "scene.h"\n\n#include <cjson/cJSON.h>\n#include <string.h>\n`,
     'protocol/error.c': `${C}#include <stdio.h>\n\nvoid print(FILE *out)\n{\n    fprintf(out, "x");\n}\n`,
     'protocol/scene.h': C,
@@ -102,6 +103,7 @@ const BREAKS = [
     ['tidy', 'server/live/hub.c', `${C}int f(int a)\n{\n    return a == 1 || a == 1;\n}\n`],
     ['tidy', 'server/live/stream.c', `${C}int f(int *a)\n{\n    return *a;\n}\n`],
     ['tidy', 'server/live/room.c', `${C}int f(int a)\n{\n    if (a > 0);\n    return a;\n}\n`],
+    ['tidy', 'server/live/rooms.c', `${C}struct pair {\n    int a, b;\n};\nstatic const struct pair pairs[] = {{1}};\nint f(void)\n{\n    return pairs[0].a;\n}\n`],
     ['shellcheck', 'deploy/run.sh', `#!/bin/sh\n# SPDX-License-Identifier: MIT\necho $1\n`],
 ];
 

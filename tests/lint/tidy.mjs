@@ -47,6 +47,14 @@ function stateOf(root, file, how) {
     return hash.digest('hex');
 }
 
+// Those of the Makefile, which a compiler prints: gcc's are seen where the program is built, clang's here.
+function warningsOf(root) {
+    const file = path.join(root, 'Makefile');
+    const text = fs.existsSync(file) ? fs.readFileSync(file, 'utf8') : '';
+    const [, list = ''] = /^warnings := ((?:.*\\\n)*.*)$/m.exec(text) ?? [];
+    return list.split(/[\s\\]+/).filter((word) => /^-W(?!error)/.test(word));
+}
+
 function flagsOf(root) {
     const packages = fs.existsSync(path.join(root, 'deploy/packages'))
         ? fs.readFileSync(path.join(root, 'deploy/packages'), 'utf8')
@@ -57,7 +65,7 @@ function flagsOf(root) {
         return null;
     }
     const cflags = modules.length > 0 ? found.stdout.trim().split(/\s+/) : [];
-    return ['-std=gnu17', '-D_GNU_SOURCE', '-DFIELDCAST_VERSION="0"', '-I.', ...cflags];
+    return ['-std=gnu17', '-D_GNU_SOURCE', '-DFIELDCAST_VERSION="0"', '-I.', ...warningsOf(root), ...cflags];
 }
 
 // Returns { faults: [text], skipped: reason or undefined }.
