@@ -435,7 +435,7 @@ static void loops_leave_steps_enough(void **state)
     }
 }
 
-/* Where the field says less rounds than its loops have, the driver cuts rays off. */
+/* With the steps that are left, rays by shaders come as far as those of the engine. */
 static void shaders_end_at_the_first_root(void **state)
 {
     const struct equation_field *field = field_named("eighteen");
