@@ -3,6 +3,7 @@
 #include "equation.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "equation_internal.h"
@@ -118,4 +119,48 @@ bool equation_add(struct equation *equation, struct equation_node node, uint16_t
     }
     equation->nodes[equation->count++] = node;
     return true;
+}
+
+/* Whether an earlier one says the same, as of a name that is written twice. */
+static bool is_again(const struct equation_errors *errors, int which)
+{
+    int i = 0;
+
+    while (strcmp(errors->list[i].message, errors->list[which].message) != 0) {
+        i++;
+    }
+    return i < which;
+}
+
+bool equation_errors_tell(const struct equation_errors *errors, enum error_kind kind,
+                          const char *place, struct error *err)
+{
+    enum { REST = sizeof "; and 7 more)" };
+    const struct equation_error *first = &errors->list[0];
+    char text[sizeof err->message], next[sizeof first->message + 32];
+    size_t used = (size_t)snprintf(text, sizeof text, "%s", first->message);
+    int told = 0, more = 0;
+
+    for (int i = 1; i < errors->count; i++) {
+        const struct equation_error *one = &errors->list[i];
+        if (is_again(errors, i)) {
+            continue;
+        }
+        const size_t length =
+            (size_t)snprintf(next, sizeof next, "%s%d:%d: %s", told == 0 ? " (also " : "; ",
+                             one->line, one->column, one->message);
+        if (more > 0 || used + length + REST > sizeof text) {
+            more++;
+            continue;
+        }
+        memcpy(text + used, next, length + 1);
+        used += length;
+        told++;
+    }
+    if (more > 0) {
+        snprintf(text + used, sizeof text - used, "%sand %d more)", told > 0 ? "; " : " (", more);
+    } else if (told > 0) {
+        snprintf(text + used, sizeof text - used, ")");
+    }
+    return error_set_at(err, kind, place, first->line, first->column, "%s", text);
 }

@@ -20,6 +20,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "error.h"
 #include "limits.h"
 
 enum equation_op {
@@ -111,6 +112,11 @@ struct equation_errors {
     struct equation_error list[EQUATION_ERRORS];
     int count; /* of those in the list */
 };
+
+/* The first of them at its place in the text. Behind it stand as many others as fit, if they say
+ * something else: "... (also 2:3: ...; and 2 more)". Returns false. */
+bool equation_errors_tell(const struct equation_errors *errors, enum error_kind kind,
+                          const char *place, struct error *err);
 
 /* The letters of a node `implicit`, which are numbers of it; NULL at the end. */
 extern const char *const equation_letters[];

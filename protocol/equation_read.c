@@ -256,26 +256,88 @@ static bool product_of(struct reader *r, const char *name, char out[2 * NAME_BYT
     return name[0] && name[1];
 }
 
+/* Other names of functions. */
+static const struct {
+    const char *name, *ours;
+} aliases[] = {
+    {"ln", "log"}, {"arcsin", "asin"}, {"arccos", "acos"}, {"arctan", "atan"}, {"sgn", "sign"},
+};
+
+static bool is_known(struct reader *r, const char *name)
+{
+    int arguments;
+    bool known = (!r->plain && find(axes, name) >= 0) || find(r->letters, name) >= 0 ||
+                 function_of(name, &arguments) >= 0;
+
+    for (int i = 0; equation_constants[i].name; i++) {
+        known = known || strcmp(equation_constants[i].name, name) == 0;
+    }
+    return known;
+}
+
+/* What is surely meant: PI, X, ln. NULL: nothing. */
+static const char *meant_by(struct reader *r, const char *name, char lower[NAME_BYTES])
+{
+    for (size_t i = 0; i < sizeof aliases / sizeof aliases[0]; i++) {
+        if (strcmp(aliases[i].name, name) == 0) {
+            return aliases[i].ours;
+        }
+    }
+    for (size_t i = 0; i < NAME_BYTES; i++) {
+        lower[i] = (char)tolower((unsigned char)name[i]);
+        if (!name[i]) {
+            break;
+        }
+    }
+    return is_known(r, lower) ? lower : NULL;
+}
+
+static void suggest(const char *name, bool called, struct suggestion *out)
+{
+    *out = (struct suggestion){.text = name};
+    for (int i = 0; i < EQUATION_FUNCTIONS; i++) {
+        suggest_consider(out, equation_functions[i].name);
+    }
+    for (int i = 0; i < EQUATION_COMPOSITES; i++) {
+        suggest_consider(out, equation_composites[i].name);
+    }
+    for (int i = 0; !called && equation_constants[i].name; i++) {
+        suggest_consider(out, equation_constants[i].name);
+    }
+}
+
+/* Which letters there are, and how another is defined. */
+static const char *hint_letters(struct reader *r, const char *name, char *out, size_t size)
+{
+    size_t used = (size_t)snprintf(out, size, "; the letters are ");
+
+    for (int i = 0; r->letters[i] && used < size; i++) {
+        used += (size_t)snprintf(out + used, size - used, "%s%s", i > 0 ? ", " : "", r->letters[i]);
+    }
+    if (used < size) {
+        snprintf(out + used, size - used, "; or define it before: %s := 1", name);
+    }
+    return out;
+}
+
 static void note_unknown(struct reader *r, const char *name, bool called, const char *at)
 {
-    char product[2 * NAME_BYTES], hint[96];
-    struct suggestion near = {.text = name};
+    char product[2 * NAME_BYTES], hint[128], lower[NAME_BYTES];
+    const char *meant = meant_by(r, name, lower);
+    struct suggestion near = {.text = name, .best = meant};
 
     if (!called && product_of(r, name, product)) {
         note(r, at, "\"%s\" is no name; write %s", name, product);
         return;
     }
-    for (int i = 0; i < EQUATION_FUNCTIONS; i++) {
-        suggest_consider(&near, equation_functions[i].name);
+    if (!meant) {
+        suggest(name, called, &near);
     }
-    for (int i = 0; i < EQUATION_COMPOSITES; i++) {
-        suggest_consider(&near, equation_composites[i].name);
+    suggest_hint(&near, hint, sizeof hint);
+    if (!near.best && !called && find(axes, name) < 0) {
+        hint_letters(r, name, hint, sizeof hint);
     }
-    for (int i = 0; !called && equation_constants[i].name; i++) {
-        suggest_consider(&near, equation_constants[i].name);
-    }
-    note(r, at, "\"%s\" is no %s%s", name, called ? "function" : "name",
-         suggest_hint(&near, hint, sizeof hint));
+    note(r, at, "\"%s\" is no %s%s", name, called ? "function" : "name", hint);
 }
 
 static uint16_t value_of(struct reader *r, const char *name, const char *at)

@@ -176,9 +176,7 @@ static bool read_polynomial(const struct ideal *ideal, const char *text, int lin
     struct equation *equation = equation_read_relation(text, ideal->letters, &errors);
 
     if (!equation) {
-        const struct equation_error *first = &errors.list[0];
-        return error_set_at(err, ERROR_INVALID, "", first->line, first->column, "%s",
-                            first->message);
+        return equation_errors_tell(&errors, ERROR_INVALID, "", err);
     }
     const bool ok = equation->relation == EQUATION_EQUALS
                         ? subtract_sides(&r, equation, out)

@@ -63,8 +63,7 @@ static struct equation *read_text(const char *text, struct error *err)
     struct equation *equation = equation_read(text, equation_letters, &errors);
 
     if (!equation) {
-        const struct equation_error *first = &errors.list[0];
-        error_set_at(err, ERROR_INVALID, "", first->line, first->column, "%s", first->message);
+        equation_errors_tell(&errors, ERROR_INVALID, "", err);
     }
     return equation;
 }

@@ -327,13 +327,12 @@ static struct equation *read_text(const char *text, const char *place, struct er
     struct equation *equation = strlen(text) <= LIMIT_EQUATION_BYTES
                                     ? equation_read_expression(text, letters, &errors)
                                     : NULL;
-    const struct equation_error *first = &errors.list[0];
 
     if (!equation && errors.count == 0) {
         error_set(err, ERROR_LIMIT, place, "%zu bytes; the limit is %d (equation_bytes)",
                   strlen(text), LIMIT_EQUATION_BYTES);
     } else if (!equation) {
-        error_set_at(err, ERROR_INVALID, place, first->line, first->column, "%s", first->message);
+        equation_errors_tell(&errors, ERROR_INVALID, place, err);
     }
     return equation;
 }

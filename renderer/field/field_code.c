@@ -97,18 +97,12 @@ int field_code_add(struct builder *b, enum code_use use, const char *text,
                : add(b, text, &(struct code_source){use, text, params, false}, place);
 }
 
-/* The first error is the builder's; how many there are stands behind it. */
 static void fail_equation(struct builder *b, const struct equation_errors *errors,
                           const char *place)
 {
-    const struct equation_error *first = &errors->list[0];
     struct error err = {0};
-    char more[40] = "";
 
-    if (errors->count > 1) {
-        snprintf(more, sizeof more, " (and %d more)", errors->count - 1);
-    }
-    error_set_at(&err, ERROR_COMPILE, "", first->line, first->column, "%s%s", first->message, more);
+    equation_errors_tell(errors, ERROR_COMPILE, "", &err);
     builder_fail(b, &err, place);
 }
 

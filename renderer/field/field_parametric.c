@@ -103,12 +103,11 @@ static char *make_key(const struct node *node, const struct parametric_source *f
 static void fail_part(struct builder *b, const struct node *node, int part,
                       const struct equation_errors *errors)
 {
-    const struct equation_error *first = &errors->list[0];
     struct error err = {0};
     char place[ERROR_PLACE_BYTES];
 
     snprintf(place, sizeof place, "/nodes/%s/params/surface/%s", node->id, surface_names[part]);
-    error_set_at(&err, ERROR_COMPILE, "", first->line, first->column, "%s", first->message);
+    equation_errors_tell(errors, ERROR_COMPILE, "", &err);
     builder_fail(b, &err, place);
 }
 

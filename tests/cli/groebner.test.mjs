@@ -78,6 +78,7 @@ const REFUSED = [
     ['the third line', ['x', 'y', 'x*(y'], /^\/generators:3:5: .*in line 3, column 3/],
     ['what only its value shows', ['x', ' ', 'y', 'x+1/y'], /^\/generators:4:1: a fraction/],
     ['an unknown letter', ['x+q', '--letters', 'x y'], /^\/generators:1:3: .*"q"/],
+    ['two unknown letters', ['x', 'q+r', '--letters', 'x y'], /^\/generators:2:1: "q" .*\(also 2:3: "r" /],
     ['a function', ['sin(x)'], /sin\(\) makes no polynomial/],
     ['a fraction', ['1/x'], /^\/generators:1.*a fraction is no polynomial/],
     ['an inequality', ['x < 1'], /an inequality is no polynomial/],

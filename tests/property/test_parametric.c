@@ -345,6 +345,8 @@ static void errors_say_where(void **state)
         {"'x':'π*s + q','y':'t','z':'0','s':[0,1],'t':[0,1]", "/nodes/it/params/surface/x", "q", 1,
          7},
         {"'x':'s','y':'u','z':'0','s':[0,1],'t':[0,1]", "/nodes/it/params/surface/y", "u", 1, 1},
+        {"'x':'s','y':'t','z':'q+sn(s)','s':[0,1],'t':[0,1]", "/nodes/it/params/surface/z",
+         "(also 1:3: \"sn\"", 1, 1},
         {"'x':'s','y':'t','z':'(s','s':[0,1],'t':[0,1]", "/nodes/it/params/surface/z", ")", 1, 3},
     };
     (void)state;

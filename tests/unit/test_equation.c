@@ -204,7 +204,13 @@ static const struct {
     {"ax + 1", 1, 1, "write a*x"},
     {"sine(x)", 1, 1, "did you mean \"sin\""},
     {"coz(x)", 1, 1, "did you mean \"cos\""},
-    {"q + x", 1, 1, "\"q\" is no name"},
+    {"q + x", 1, 1, "\"q\" is no name; the letters are a, b, c, d; or define it before: q := 1"},
+    {"radius*x", 1, 1, "or define it before: radius := 1"},
+    {"x = PI", 1, 5, "\"PI\" is no name; did you mean \"pi\"?"},
+    {"y + X", 1, 5, "did you mean \"x\"?"},
+    {"ln(x)", 1, 1, "\"ln\" is no function; did you mean \"log\"?"},
+    {"Sin(x)", 1, 1, "did you mean \"sin\"?"},
+    {"arctan(x)", 1, 1, "did you mean \"atan\"?"},
     {"frob(x)", 1, 1, "\"frob\" is no function"},
     {"sin + x", 1, 1, "write sin(...)"},
     {"x + max", 1, 5, "write max(..., ...)"},
@@ -319,6 +325,40 @@ static void several_errors_are_told(void **state)
     assert_int_equal(errors.list[3].column, 15);
     assert_null(equation_read("q+q+q+q+q+q+q+q+q+q", letters, &errors));
     assert_int_equal(errors.count, EQUATION_ERRORS);
+}
+
+static void all_errors_are_told_as_one(void **state)
+{
+    static const struct {
+        const char *text, *message;
+    } rows[] = {
+        {"x + y)", "nothing is open that \")\" could close"},
+        {"sine(x) + max(y)", "\"sine\" is no function; did you mean \"sin\"? (also 1:11: max() "
+                             "takes 2 arguments, not 1)"},
+        {"sine(x)\n+ max(y) + (z",
+         "\"sine\" is no function; did you mean \"sin\"? (also 2:3: max() takes 2 arguments, not "
+         "1; "
+         "2:14: expected \")\" for the \"(\" in line 2, column 12, found the end)"},
+        {"sine(x) + sine(y) + coz(z)", "\"sine\" is no function; did you mean \"sin\"? (also 1:21: "
+                                       "\"coz\" is no function; did you "
+                                       "mean \"cos\"?)"},
+        {"q + r + w + k",
+         "\"q\" is no name; the letters are a, b, c, d; or define it before: q := 1 (also 1:5: "
+         "\"r\" "
+         "is no name; the letters are a, b, c, d; or define it before: r := 1; 1:9: \"w\" is no "
+         "name; the letters are a, b, c, d; or define it before: w := 1; and 1 more)"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        struct equation_errors errors;
+        struct error err = {0};
+        assert_null(equation_read(rows[i].text, letters, &errors));
+        assert_false(equation_errors_tell(&errors, ERROR_COMPILE, "/here", &err));
+        assert_string_equal(err.message, rows[i].message);
+        assert_string_equal(err.place, "/here");
+        assert_int_equal(err.line, errors.list[0].line);
+        assert_int_equal(err.column, errors.list[0].column);
+    }
 }
 
 /* --- limits --- */
@@ -541,6 +581,7 @@ int main(void)
         cmocka_unit_test(texts_are_read_within_others),
         cmocka_unit_test(places_follow_the_text),
         cmocka_unit_test(several_errors_are_told),
+        cmocka_unit_test(all_errors_are_told_as_one),
         cmocka_unit_test(limits_hold_on_both_sides),
         cmocka_unit_test(weights_are_bounded),
         cmocka_unit_test(names_are_bounded),
