@@ -494,6 +494,83 @@ static void ranges_hold_values_and_slopes(void **state)
     }
 }
 
+/* --- gradients --- */
+
+/* The function's gradient and value by itself, one of the four numbers at a time. */
+static struct code *gradient_code(const char *text)
+{
+    static const struct param params[] = {
+        {.name = "a", .type = PARAM_FLOAT}, {.name = "which", .type = PARAM_FLOAT}, {.name = NULL}};
+    struct error err = {0};
+    struct equation *equation = read(text);
+    char *whole = equation_function_code(
+        equation, letters, "float sdf(vec3 p)\n{\nreturn function_at(p)[int(which)];\n}\n");
+    struct code *code =
+        code_compile(&(struct code_source){CODE_DISTANCE, whole, params, true}, &err);
+
+    if (!code) {
+        fail_msg("%s: %s", text, err.message);
+    }
+    free(equation);
+    free(whole);
+    return code;
+}
+
+static double gradient_at(const struct code *code, const double p[3], int which)
+{
+    return code_distance(code, p, (const double[]){letter_values[0], which}, NULL);
+}
+
+/* By central differences, good to `room`; false: at a corner or a jump, where both sides differ. */
+static bool difference_at(const struct equation *equation, const double p[3], int axis, double *out,
+                          double *room)
+{
+    const double h = 1e-5, f = equation_value(equation, p, letter_values);
+    double values[4];
+
+    for (int i = 0; i < 4; i++) {
+        static const int steps[] = {-2, -1, 1, 2};
+        double q[3] = {p[0], p[1], p[2]};
+        q[axis] += steps[i] * h;
+        values[i] = equation_value(equation, q, letter_values);
+    }
+    const double left = (f - values[1]) / h, right = (values[2] - f) / h;
+    *out = 0.5 * (left + right);
+    *room = 1e-6 * fmax(1, fabs(*out)) + fabs((values[3] - values[0]) / (4 * h) - *out);
+    return fabs(right - left) <= 1e-2 * fmax(1, fabs(*out));
+}
+
+static void gradients_are_those_of_differences(void **state)
+{
+    struct random random = {.state = 22};
+    (void)state;
+
+    for (size_t e = 0; e < EQUATIONS; e++) {
+        struct code *code = gradient_code(equations[e].text);
+        struct equation *equation = read(equations[e].text);
+        int smooth = 0;
+        for (int i = 0; i < POINTS; i++) {
+            double p[3], expected, room;
+            random_point(&random, 1.4, p);
+            const double f = equation_value(equation, p, letter_values);
+            assert_float_equal(gradient_at(code, p, 3), f, 1e-12 * fmax(1, fabs(f)));
+            const int axis = i % 3;
+            if (!difference_at(equation, p, axis, &expected, &room)) {
+                continue;
+            }
+            const double got = gradient_at(code, p, axis);
+            if (!(fabs(got - expected) <= room)) {
+                fail_msg("%s at (%.9g, %.9g, %.9g), axis %d: %.9g, not %.9g", equations[e].text,
+                         p[0], p[1], p[2], axis, got, expected);
+            }
+            smooth++;
+        }
+        assert_in_range(smooth, POINTS / 2, POINTS);
+        free(equation);
+        code_destroy(code);
+    }
+}
+
 static void every_function_has_a_row(void **state)
 {
     (void)state;
@@ -605,6 +682,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_function_has_a_row),
         cmocka_unit_test(ranges_hold_values_and_slopes),
+        cmocka_unit_test(gradients_are_those_of_differences),
         cmocka_unit_test(the_sign_holds_within_the_distance),
         cmocka_unit_test(random_equations_keep_their_sign),
         cmocka_unit_test(the_clip_is_the_distance_beyond_its_margin),
