@@ -364,6 +364,7 @@ static vf turn(struct lanes *c, vb m, const vf *p, vf distance, vf d)
     return vf_select(held, run_in(c, cell, held, p), d);
 }
 
+/* A ray that waits asks for the same point again: that there is no bound is known by then. */
 static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, vf distance, vf enough)
 {
     vf d = vf_all(WAITING);
