@@ -162,7 +162,7 @@ const running = new Set();
 /** Ends a suite that hangs, with all that it started. `onHung` is told why. */
 function watch(pid, onHung) {
     const patience = new Patience(() => groupOf(pid), PATIENCE);
-    const timer = setInterval(() => {
+    const ask = () => {
         const reason = patience.isOver();
         if (reason) {
             clearInterval(timer);
@@ -171,7 +171,9 @@ function watch(pid, onHung) {
                 kill(one.pid);
             }
         }
-    }, PATIENCE.periodMs);
+    };
+    // Words that wait in the pipe, because this process did not run, are read first.
+    const timer = setInterval(() => setImmediate(ask), PATIENCE.periodMs);
     return { heard: () => patience.heard(), end: () => clearInterval(timer) };
 }
 

@@ -7,6 +7,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
 import { sleep } from '../support/daemon.mjs';
+import { Patience } from '../support/patience.mjs';
 import { countTap } from '../support/tap.mjs';
 
 const tests = path.dirname(path.dirname(new URL(import.meta.url).pathname));
@@ -121,6 +122,21 @@ test('a suite that is busy without a word is ended', async () => {
     const env = { TEST_IDLE_SECONDS: '100', TEST_BUSY_SECONDS: '1' };
     const { last, fault } = await runSuite(busy(1000, 1000), { file: 'run.mjs', env });
     assert.deepEqual([last, fault], ['0 passed, 2 failed', 'hung, silent for 1 s of processor time']);
+});
+
+test('what was used before a word counts as told, what was used after it does not', () => {
+    let seconds = 0;
+    const list = () => [{ pid: 0, seconds }];
+    const patience = new Patience(list, { idleSeconds: 100, busySeconds: 10, periodMs: 0 });
+    const isOver = (used) => {
+        seconds += used;
+        return patience.isOver();
+    };
+    assert.equal(isOver(9), false);
+    patience.heard();
+    assert.equal(isOver(11), false);
+    assert.equal(isOver(9), false);
+    assert.equal(isOver(2), 'silent for 10 s of processor time');
 });
 
 test('one that is busy for longer than it may be idle, and one that says so, are not', async () => {

@@ -80,8 +80,9 @@ export class Patience {
         return this.processes.reduce((sum, one) => sum + one.seconds, 0);
     }
 
-    /** There is a sign of life. */
+    /** There is a sign of life. What was used before it, since the last isOver(), was not silent. */
     heard() {
+        this.isHeard = true;
         this.idle = 0;
         this.busy = 0;
     }
@@ -97,6 +98,10 @@ export class Patience {
         const used = Math.max(0, seconds - this.last.seconds);
         const counted = Math.min(elapsed, (2 * this.periodMs) / 1000);
         this.last = { at, seconds };
+        if (this.isHeard) {
+            this.isHeard = false;
+            return false;
+        }
         this.busy += used;
         if (used >= IDLE_RATE * elapsed) {
             this.idle = Math.max(0, this.idle - PAID_BACK * counted);
