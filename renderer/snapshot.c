@@ -50,7 +50,8 @@ static bool has_estimates(const struct field *field)
 {
     for (size_t i = 0; i < field->instruction_count; i++) {
         const struct field_instruction *in = &field->instructions[i];
-        if (in->op == FIELD_SHAPE && in->choices == FIELD_POLYNOMIAL) {
+        if (in->op == FIELD_SHAPE &&
+            (in->sdf ? in->choices == FIELD_POLYNOMIAL : field->codes[in->choices].own)) {
             return true;
         }
     }

@@ -3,21 +3,101 @@
 #include "equation_code.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "equation_writer.h"
 
-enum { TRIES = 4 }; /* of steps, for one bound */
+enum { TRIES = 4, SEARCHES = 24 }; /* boxes for one bound, and for an even one, at most */
 
-/* --- which nodes, functions and powers are used --- */
+/* --- the function, and which functions and powers are used --- */
 
-static void mark_used(struct equation_writer *w)
+/* Appends left - right, what is negative inside, and returns its index. */
+static uint16_t add_root(struct equation *equation)
 {
-    w->used[w->equation->left] = w->used[w->equation->right] = true;
-    for (size_t i = w->equation->count; i-- > 0;) {
-        const struct equation_node *node = &w->equation->nodes[i];
-        for (int k = 0; w->used[i] && k < equation_arguments(node); k++) {
-            w->used[node->args[k]] = true;
+    const bool turned =
+        equation->relation == EQUATION_GREATER || equation->relation == EQUATION_GREATER_EQUAL;
+    const uint16_t first = turned ? equation->right : equation->left;
+    const uint16_t second = turned ? equation->left : equation->right;
+    const struct equation_node *right = &equation->nodes[equation->right];
+
+    if (!turned && right->op == EQUATION_NUMBER && right->value == 0) {
+        return equation->left;
+    }
+    equation->nodes[equation->count] =
+        (struct equation_node){.op = EQUATION_SUBTRACT, .args = {first, second}, .varies = true};
+    return (uint16_t)equation->count++;
+}
+
+/* Leaves out what the root does not need, so that a text does not depend on it. */
+static uint16_t keep_needed(struct equation *equation, uint16_t root)
+{
+    bool needed[LIMIT_EQUATION_NODES + 1] = {false};
+    uint16_t places[LIMIT_EQUATION_NODES + 1], count = 0;
+
+    needed[root] = true;
+    for (size_t i = root + 1U; i-- > 0;) {
+        const struct equation_node *node = &equation->nodes[i];
+        for (int k = 0; needed[i] && k < equation_arguments(node); k++) {
+            needed[node->args[k]] = true;
         }
+    }
+    for (size_t i = 0; i <= root; i++) {
+        struct equation_node node = equation->nodes[i];
+        for (int k = 0; needed[i] && k < equation_arguments(&node); k++) {
+            node.args[k] = places[node.args[k]];
+        }
+        places[i] = count;
+        equation->nodes[count] = node;
+        count += needed[i];
+    }
+    equation->count = count;
+    return (uint16_t)(count - 1);
+}
+
+/* Of the nodes of `out` all are needed, the last one last. */
+static uint16_t function_of(const struct equation *equation, struct equation *out)
+{
+    *out = *equation;
+    return keep_needed(out, add_root(out));
+}
+
+/* The next place for this node's number; 0: it has none. */
+static int next_place(const struct equation *equation, size_t index, int *next)
+{
+    const uint8_t op = equation->nodes[index].op;
+    const bool is_number = op == EQUATION_LETTER || op == EQUATION_NUMBER;
+
+    return is_number && *next < 4 * EQUATION_VECTORS ? (*next)++ : 0;
+}
+
+int equation_code_numbers(const struct equation *equation, const double form[EQUATION_FORM_NUMBERS],
+                          const double *letters, double out[4 * EQUATION_VECTORS])
+{
+    struct equation function;
+    int count = EQUATION_FORM_NUMBERS;
+
+    memset(out, 0, 4 * EQUATION_VECTORS * sizeof *out);
+    memcpy(out, form, EQUATION_FORM_NUMBERS * sizeof *out);
+    function_of(equation, &function);
+    for (size_t i = 0; i < function.count; i++) {
+        const struct equation_node *node = &function.nodes[i];
+        const int place = next_place(&function, i, &count);
+        if (place > 0) {
+            out[place] = node->op == EQUATION_LETTER ? letters[node->which] : node->value;
+        }
+    }
+    return (count + 3) / 4;
+}
+
+void equation_code_params(int vectors, struct param out[EQUATION_VECTORS + 1])
+{
+    static const char *const names[EQUATION_VECTORS] = {"v0",  "v1",  "v2",  "v3", "v4",  "v5",
+                                                        "v6",  "v7",  "v8",  "v9", "v10", "v11",
+                                                        "v12", "v13", "v14", "v15"};
+
+    for (int i = 0; i <= vectors; i++) {
+        out[i] = i < vectors ? (struct param){.name = names[i], .type = PARAM_VEC4}
+                             : (struct param){.name = NULL};
     }
 }
 
@@ -25,7 +105,7 @@ static bool is_called(const struct equation_writer *w, enum equation_op op, int 
 {
     for (size_t i = 0; i < w->equation->count; i++) {
         const struct equation_node *node = &w->equation->nodes[i];
-        if (w->used[i] && node->op == op && (which < 0 || node->which == which)) {
+        if (node->op == op && (which < 0 || node->which == which)) {
             return true;
         }
     }
@@ -50,14 +130,14 @@ static void write_functions(const struct equation_writer *w)
 
 double equation_unsteady(double extent)
 {
-    return hypot(EQUATION_MARGIN, EQUATION_REACH) * extent;
+    return hypot(EQUATION_MARGIN, EQUATION_ESTIMATE) * extent;
 }
 
 static void write_nodes(const struct equation_writer *w, bool varying,
                         void (*write)(const struct equation_writer *, size_t))
 {
     for (size_t i = 0; i < w->equation->count; i++) {
-        if (w->used[i] && w->equation->nodes[i].varies == varying) {
+        if (w->equation->nodes[i].varies == varying) {
             write(w, i);
         }
     }
@@ -79,7 +159,9 @@ static void write_axis(const struct equation_writer *w, size_t index)
  * A sheet's last box is as small as its grain. */
 static void write_boxes(const struct equation_writer *w, uint16_t root, bool sheet)
 {
-    write_nodes(w, true, write_axis);
+    fputs(sheet ? "float d = -0.5 * thickness;\nat.y = max(at.y, thickness);\n"
+                : "float d = 0.0;\n",
+          w->out);
     fprintf(w->out, "for (int i = 0; i < %d; i++) {\nvec2 sides = vec2(-at.y, at.y);\n", TRIES);
     write_nodes(w, true, equation_write_jet);
     fprintf(w->out,
@@ -90,89 +172,106 @@ static void write_boxes(const struct equation_writer *w, uint16_t root, bool she
     if (sheet) {
         fprintf(w->out, "at.y = i == %d ? thickness / 16.0 : told.y;\n}\n", TRIES - 2);
     } else {
-        fprintf(w->out, "at.y = told.y;\n}\nd = g%d.w < 0.0 ? -d : d;\n", root);
+        fputs("at.y = told.y;\n}\nd = g.w < 0.0 ? -d : d;\n", w->out);
     }
 }
 
-static void write_sdf(const struct equation_writer *w, uint16_t root, struct equation_form form)
+/* The same, even. */
+static void write_search(const struct equation_writer *w, uint16_t root, bool sheet)
 {
-    const char *const extent = form.ball ? "radius" : "0.5 * length(size)";
-
     fprintf(w->out,
-            "float sdf(vec3 point)\n{\n"
-            "vec4 near = jet_near_%s;\n"
-            "float extent = %s;\n"
-            "if (near.w > %g * extent) {\nreturn near.w;\n}\n"
-            "vec3 p = near.xyz;\n",
-            form.ball ? "ball(point, radius)" : "box(point, size)", extent, EQUATION_MARGIN);
-    write_nodes(w, false, equation_write_scalar);
-    write_nodes(w, true, equation_write_gradient);
-    fprintf(w->out, "vec2 at = jet_begin(g%d, %g * extent);\n", root, EQUATION_REACH);
-    fputs(form.sheet ? "float d = -0.5 * thickness;\nat.y = max(at.y, thickness);\n"
-                     : "float d = 0.0;\n",
-          w->out);
-    write_boxes(w, root, form.sheet);
-    fputs("return jet_clipped(near, d);\n}\n", w->out);
+            "mat3 search = jet_search(g, room);\n"
+            "for (int i = 0; i < %d; i++) {\n"
+            "if (search[0].z == 2.0) {\nbreak;\n}\n"
+            "vec2 sides = vec2(-search[0].x, search[0].x);\n",
+            SEARCHES);
+    write_nodes(w, true, equation_write_jet);
+    fprintf(w->out, "search = jet_searched(j%d, search);\n}\nfloat d = %s;\n", root,
+            sheet ? "search[0].x - 0.5 * thickness" : "g.w < 0.0 ? -search[0].x : search[0].x");
 }
 
-/* What is negative inside. */
-static uint16_t add_root(struct equation *equation)
-{
-    const struct equation_node *right = &equation->nodes[equation->right];
-    const bool turned =
-        equation->relation == EQUATION_GREATER || equation->relation == EQUATION_GREATER_EQUAL;
-    const uint16_t first = turned ? equation->right : equation->left;
-    const uint16_t second = turned ? equation->left : equation->right;
-
-    if (!turned && right->op == EQUATION_NUMBER && right->value == 0) {
-        return equation->left;
-    }
-    equation->nodes[equation->count] =
-        (struct equation_node){.op = EQUATION_SUBTRACT, .args = {first, second}, .varies = true};
-    return (uint16_t)equation->count++;
-}
-
-static void write_function(const struct equation_writer *w, uint16_t root, const char *rest)
+/* The function at a point: (gradient, value). */
+static void write_function(const struct equation_writer *w, uint16_t root)
 {
     fputs("vec4 function_at(vec3 p)\n{\n", w->out);
     write_nodes(w, false, equation_write_scalar);
     write_nodes(w, true, equation_write_gradient);
     fprintf(w->out, varies(w, root) ? "return g%d;\n}\n" : "return vec4(0.0, 0.0, 0.0, s%d);\n}\n",
             root);
-    fputs(rest, w->out);
 }
 
-/* `form` NULL: the function alone, and the rest. */
-static char *write(const struct equation *equation, const char *const *letters,
-                   const struct equation_form *form, const char *rest)
+/* Where an estimate is asked for, no boxes are looked at. */
+static void write_estimate(const struct equation_writer *w, bool sheet)
 {
-    struct equation whole = *equation;
+    fprintf(w->out,
+            "if (most > 0.0) {\n"
+            "float way = jet_estimated(g, at, function_at(jet_ahead(p, g, at)));\n"
+            "return jet_clipped(near, %s);\n}\n",
+            sheet ? "min(way - 0.5 * thickness, most)"
+                  : "g.w < 0.0 ? -min(way, most) : min(way, most)");
+}
+
+static void write_sdf(const struct equation_writer *w, uint16_t root, struct equation_form form)
+{
+    fprintf(w->out,
+            "float sdf(vec3 point)\n{\n"
+            "vec3 size = v0.xyz;\n"
+            "float radius = v0.w, thickness = v1.x;\n"
+            "vec4 near = jet_near_%s;\n"
+            "float extent = %s;\n"
+            "float room = max(%g * extent - max(near.w, 0.0), 0.0), most = jet_room(room);\n",
+            form.ball ? "ball(point, radius)" : "box(point, size)",
+            form.ball ? "radius" : "0.5 * length(size)", EQUATION_ESTIMATE);
+    if (form.even) {
+        fputs("if (room == 0.0) {\nreturn near.w;\n}\n", w->out);
+    } else {
+        fprintf(w->out, "if (near.w > %g * extent && most == 0.0) {\nreturn near.w;\n}\n",
+                EQUATION_MARGIN);
+    }
+    fprintf(w->out,
+            "vec3 p = near.xyz;\n"
+            "vec4 g = function_at(p);\n"
+            "vec2 at = jet_begin(g, %g * extent);\n",
+            EQUATION_REACH);
+    write_estimate(w, form.sheet);
+    write_nodes(w, false, equation_write_scalar);
+    write_nodes(w, true, write_axis);
+    (form.even ? write_search : write_boxes)(w, root, form.sheet);
+    fputs("return jet_clipped(near, d);\n}\n", w->out);
+}
+
+/* `form` NULL: the function alone, and the rest, by names of the letters. */
+static char *write(const struct equation *equation, const struct equation_form *form,
+                   const char *const *letters, const char *rest)
+{
+    struct equation function;
     char *text = NULL;
     size_t length = 0;
-    const uint16_t root = add_root(&whole);
+    int next = EQUATION_FORM_NUMBERS;
+    const uint16_t root = function_of(equation, &function);
     struct equation_writer w = {
-        .equation = &whole, .letters = letters, .out = open_memstream(&text, &length)};
+        .equation = &function, .letters = letters, .out = open_memstream(&text, &length)};
 
-    mark_used(&w);
-    w.used[root] = true;
+    for (size_t i = 0; form && i < function.count; i++) {
+        w.places[i] = next_place(&function, i, &next);
+    }
     write_functions(&w);
+    write_function(&w, root);
     if (form) {
         write_sdf(&w, root, *form);
-    } else {
-        write_function(&w, root, rest);
     }
+    fputs(rest, w.out);
     fclose(w.out);
     return text;
 }
 
-char *equation_code(const struct equation *equation, const char *const *letters,
-                    struct equation_form form)
+char *equation_code(const struct equation *equation, struct equation_form form)
 {
-    return write(equation, letters, &form, "");
+    return write(equation, &form, NULL, "");
 }
 
 char *equation_function_code(const struct equation *equation, const char *const *letters,
                              const char *rest)
 {
-    return write(equation, letters, NULL, rest);
+    return write(equation, NULL, letters, rest);
 }

@@ -17,28 +17,46 @@
  * less of a margin the clip would be seen in soft shadows and ambient occlusion.
  *
  * So the distance changes as fast as the way where it exceeds equation_unsteady(), and is the lower
- * bound of a distance everywhere. */
+ * bound of a distance everywhere. Where an estimate is asked for (glsl/field_mask.glsl) it is the
+ * way along the gradient to the root of a parabola, by the function's value there, its slope, and
+ * its value where Newton's step leads; no box is asked then.
+ *
+ * What blends shapes, rounds or thickens them draws where distances are not 0: any jump of them is
+ * seen there, and a ray that relies on them comes through. For these the bound is `even`: the
+ * greatest box is searched for in which the function stays above 0 (jet_search). */
 #ifndef RENDERER_EQUATION_CODE_H
 #define RENDERER_EQUATION_CODE_H
 
 #include "protocol/equation.h"
+#include "protocol/param.h"
 
 /* What is made of the surface. */
 struct equation_form {
     bool sheet; /* so thick as the number `thickness` says; else what is behind it, solid */
     bool ball;  /* cut by one of the number `radius`; else by a box of the lengths `size` */
+    bool even;  /* the distance changes by no more than the way, everywhere and without jumps */
 };
 
-#define EQUATION_MARGIN 0.15 /* around the clip, as a part of its extent */
-#define EQUATION_REACH 0.25  /* the same of the longest step that is tried */
+#define EQUATION_MARGIN 0.15  /* around the clip, as a part of its extent */
+#define EQUATION_REACH 0.25   /* the same of the longest step that is tried */
+#define EQUATION_ESTIMATE 0.5 /* the same of an estimate at most */
 /* Above this the distance is that to the clip. No distance is below minus this. `extent` is the
  * radius of the clip, or half of the diagonal of its box. */
 double equation_unsteady(double extent);
 
-/* The text of float sdf(vec3 p). It reads the declared numbers vec3 size, float radius, float
- * thickness, and the equation's letters. The caller frees it. */
-char *equation_code(const struct equation *equation, const char *const *letters,
-                    struct equation_form form);
+/* Numbers that the code of a distance reads, four in each vec4: lengths of the clip's box, the
+ * ball's radius, the thickness, then letters and numbers of the equation, in the order of its
+ * nodes. So equations that differ in numbers alone have one text. Numbers without a place, because
+ * these are too many, stay in it. */
+enum { EQUATION_VECTORS = 16, EQUATION_FORM_NUMBERS = 5 };
+
+/* `form`: the first of them; `letters`: of equation_letters. Returns how many vec4s. */
+int equation_code_numbers(const struct equation *equation, const double form[EQUATION_FORM_NUMBERS],
+                          const double *letters, double out[4 * EQUATION_VECTORS]);
+/* The parameters of such code: so many vec4s, and a row whose name is NULL. */
+void equation_code_params(int vectors, struct param out[EQUATION_VECTORS + 1]);
+/* The text of float sdf(vec3 p), which reads these. The caller frees it. */
+char *equation_code(const struct equation *equation, struct equation_form form);
 /* The text of vec4 function_at(vec3 p), with `rest` behind it: gradient and value of left - right,
  * which reads the equation's letters. The caller frees it. */
 char *equation_function_code(const struct equation *equation, const char *const *letters,

@@ -113,8 +113,7 @@ static size_t find_turn(const struct equation_writer *w, size_t index)
     const uint16_t a = node_of(w, index)->args[0];
     size_t first = 0;
 
-    while (!(w->used[first] && equation_is_wave(node_of(w, first)) &&
-             node_of(w, first)->args[0] == a)) {
+    while (!(equation_is_wave(node_of(w, first)) && node_of(w, first)->args[0] == a)) {
         first++;
     }
     return first;

@@ -71,6 +71,12 @@ void equation_write_scalar(const struct equation_writer *w, size_t index)
     const int a = node->args[0], b = node->args[1];
     char argument[16];
 
+    const int place = w->places[index];
+
+    if (place > 0) {
+        fprintf(w->out, "float s%zu = v%d.%c;\n", index, place / 4, "xyzw"[place % 4]);
+        return;
+    }
     write_known_power(w, index);
     fprintf(w->out, "%sfloat s%zu = ", node->op == EQUATION_NUMBER ? "const " : "", index);
     switch ((enum equation_op)node->op) {

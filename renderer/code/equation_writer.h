@@ -11,9 +11,9 @@
 #include "equation_rules.h"
 
 struct equation_writer {
-    const struct equation *equation;
-    const char *const *letters;
-    bool used[LIMIT_EQUATION_NODES + 1];
+    const struct equation *equation;      /* all of its nodes are needed */
+    const char *const *letters;           /* names that are read for them; NULL: see `places` */
+    int places[LIMIT_EQUATION_NODES + 1]; /* of letters and numbers in vec4s; 0: none */
     FILE *out;
 };
 

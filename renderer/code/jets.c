@@ -256,6 +256,34 @@ void jet_begin(double *out, const double *const in[], int n)
     out[1] = fmin(value / fmax(slope, 1e-18), in[1][0]);
 }
 
+void jet_room(double *out, const double *const in[], int n)
+{
+    UNUSED(in);
+    UNUSED(n);
+    out[0] = 0;
+}
+
+void jet_ahead(double *out, const double *const in[], int n)
+{
+    const double *dual = in[1], step = copysign(in[2][1], dual[3]);
+    const double slope = fmax(length_of(dual), 1e-18);
+
+    UNUSED(n);
+    for (int i = 0; i < 3; i++) {
+        out[i] = in[0][i] - dual[i] / slope * step;
+    }
+}
+
+void jet_estimated(double *out, const double *const in[], int n)
+{
+    const double value = in[1][0], step = fmax(in[1][1], 1e-18), slope = length_of(in[0]);
+    const double ahead = copysign(1, in[0][3]) * in[2][3];
+    const double bend = (ahead - value + slope * step) / (step * step);
+
+    UNUSED(n);
+    out[0] = 2 * value / fmax(slope + sqrt(fmax(slope * slope - 4 * bend * value, 0)), 1e-18);
+}
+
 /* What an interval tells of the slope: the greatest; that nothing is 0; that there is a jump. */
 struct told {
     double most;
@@ -303,4 +331,46 @@ void jet_sheet(double *out, const double *const in[], int n)
     out[1] = last || free > 0.4 * reach ? 0
              : ends                     ? grain
                                         : fmax(smaller(reach, free, told.jumps), grain);
+}
+
+/* Columns of a search. */
+enum { TRY = 0, LOW = 3, HIGH = 6 };
+
+void jet_search(double *out, const double *const in[], int n)
+{
+    const double value = fabs(in[0][3]), limit = in[1][0];
+    const double step = fmin(value / fmax(length_of(in[0]), 1e-18), limit);
+    const double begin[NUMBERS] = {step, value, step > 0 ? 0 : 2, 0, value, limit, limit, 0, 0};
+
+    UNUSED(n);
+    for (int i = 0; i < NUMBERS; i++) {
+        out[i] = begin[i];
+    }
+}
+
+void jet_searched(double *out, const double *const in[], int n)
+{
+    const double *jet = in[0], *search = in[1], r = search[TRY], limit = search[LOW + 2];
+    const double least = fmax(jet[VALUE], -jet[VALUE + 1]);
+    const double free = fmax(least, search[TRY + 1] - told_by(jet).most * r);
+    const int moved = free > 0 ? LOW : HIGH, stays = free > 0 ? HIGH : LOW;
+    const double side = free > 0 ? 1 : -1;
+    const bool whole = free > 0 && search[HIGH + 1] == 0;
+
+    UNUSED(n);
+    for (int i = 0; i < NUMBERS; i++) {
+        out[i] = search[i];
+    }
+    out[moved] = r;
+    out[moved + 1] = free;
+    out[stays + 1] *= side == search[TRY + 2] ? 0.5 : 1;
+    out[HIGH + 2]++;
+    const double between = out[HIGH] - out[LOW];
+    const double part = out[LOW + 1] / fmax(out[LOW + 1] - out[HIGH + 1], 1e-30);
+    const bool halves = part < 0.02 || out[HIGH + 2] > JET_SECANTS;
+    const double next = out[LOW] + between * (halves ? 0.5 : part);
+    const bool close = between < 1e-5 * next || (!halves && fabs(next - r) < 2e-4 * r);
+    const bool found = whole ? r >= limit : close;
+    out[TRY] = whole ? limit : next;
+    out[TRY + 2] = found ? 2 : side;
 }

@@ -9,7 +9,8 @@
 #ifndef RENDERER_CODE_JETS_H
 #define RENDERER_CODE_JETS_H
 
-#define JET_MAX 1e18 /* as in glsl/jets.glsl */
+#define JET_MAX 1e18  /* as in glsl/jets.glsl */
+#define JET_SECANTS 8 /* rounds of a search by false position, as there */
 
 /* As `whole` of struct builtin; `in` are the arguments. */
 void jet_dual_times(double *out, const double *const in[], int n); /* dual, dual */
@@ -38,9 +39,27 @@ void jet_near_ball(double *out, const double *const in[], int n);
 void jet_clipped(double *out, const double *const in[], int n);
 /* |f| and half of the side of the first box: dual, the most that half may be. */
 void jet_begin(double *out, const double *const in[], int n);
+/* How much an estimate of the distance may be: as much as said where one is asked for
+ * (glsl/field_mask.glsl), else 0. In C none is. */
+void jet_room(double *out, const double *const in[], int n);
+/* Where Newton's step leads, as long as in the second number of jet_begin: point, dual, these. */
+void jet_ahead(double *out, const double *const in[], int n);
+/* About how far the surface is along it, if what the dual, and the dual at that place, tell of the
+ * function is a parabola: right at simple and double roots. Dual, those numbers, dual ahead. */
+void jet_estimated(double *out, const double *const in[], int n);
 /* The way that is free, and half of the side of the next box, 0: none. Of the jet in a box, |f| and
  * half of the box's side, the thickness. */
 void jet_solid(double *out, const double *const in[], int n);
 void jet_sheet(double *out, const double *const in[], int n);
+
+/* The way that is free, exactly: the greatest half side r of a box in which |f| is known to stay
+ * above 0, by the slope, |f| > M r, or by the values. This r changes by no more than the way, and
+ * without jumps, since the box around another point lies in one that is larger by the way there:
+ * so what mixes distances can have it. It is the root of a falling function, found by false
+ * position (Illinois, Dowell and Jarratt 1971), or by halves where the function jumps. The search
+ * is a matrix of the columns (r to try, |f|, which end was moved: -1, 1, or 2: r is it), (least
+ * end, its function, longest r), (greatest end, its function, rounds). Dual, longest r. */
+void jet_search(double *out, const double *const in[], int n);
+void jet_searched(double *out, const double *const in[], int n); /* jet in the box, search */
 
 #endif

@@ -44,6 +44,7 @@ struct builder {
     const struct instance_values *values; /* of the innermost one; NULL: none */
     bool cutting;           /* what comes is taken away from something else, or bounds it; */
     bool cuts_transmissive; /* and light goes through that */
+    bool measured;          /* what is around draws where the distance of what comes is not 0 */
     bool hiding;            /* a node around is hidden */
     bool within;            /* what comes is not to be looked for in `isolation` */
     bool ended;             /* what has no end is not to be seen */

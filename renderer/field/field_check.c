@@ -1,15 +1,32 @@
 /* SPDX-License-Identifier: MIT */
 #include "field_check.h"
 
+#include <stdlib.h>
+
 #include "field_code.h"
 #include "protocol/memory.h"
+#include "renderer/code/equation_expand.h"
+
+static void check_equation(struct builder *b, const struct field_call *call)
+{
+    struct equation *equation = field_read_equation(b, call->text, call->place);
+
+    if (equation && equation_degree(equation) < 0) {
+        field_equation_add(b, equation, call->form, EQUATION_VECTORS, call->place);
+    }
+    free(equation);
+}
 
 static void check_tree(struct builder *b, const struct node *top)
 {
     for (const struct node *node = top; node && !b->failed; node = node_next(node, top)) {
         struct field_call call;
         if (field_call_of(b->scene, node, &call)) {
-            field_call_add(b, &call);
+            if (call.is_equation) {
+                check_equation(b, &call);
+            } else {
+                field_code_add(b, CODE_DISTANCE, call.text, call.params, call.place);
+            }
         }
     }
 }

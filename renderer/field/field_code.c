@@ -133,24 +133,37 @@ static bool check_operations(struct builder *b, const struct equation *equation,
     return false;
 }
 
-static int add_equation(struct builder *b, const struct field_call *call)
+/* Found by what is compiled: one node may have several forms, and many nodes one text. */
+static int find_own(const struct field *field, uint64_t hash)
+{
+    for (size_t i = 0; i < field->code_count; i++) {
+        if (field->codes[i].own && field->codes[i].hash == hash) {
+            return (int)i;
+        }
+    }
+    return -1;
+}
+
+int field_equation_add(struct builder *b, const struct equation *equation,
+                       struct equation_form form, int vectors, const char *place)
 {
     char no_polynomial[80];
+    struct param params[EQUATION_VECTORS + 1];
 
     snprintf(no_polynomial, sizeof no_polynomial,
              " and no polynomial of degree %d at most (polynomial_degree)",
              LIMIT_POLYNOMIAL_DEGREE);
-    struct equation *equation = field_read_equation(b, call->text, call->place);
-
-    if (!equation || !check_operations(b, equation, no_polynomial, call->place)) {
-        free(equation);
+    if (!check_operations(b, equation, no_polynomial, place)) {
         return -1;
     }
-    char *text = equation_code(equation, equation_letters, call->form);
-    const struct code_source source = {CODE_DISTANCE, text, call->params, true};
-    const int index = add(b, call->text, &source, call->place);
+    char *text = equation_code(equation, form);
+    equation_code_params(vectors, params);
+    int index = find_own(b->field, hash_code(text, params));
+    b->failed = b->failed || (index < 0 && b->again);
+    if (index < 0 && !b->failed) {
+        index = add(b, NULL, &(struct code_source){CODE_DISTANCE, text, params, true}, place);
+    }
     free(text);
-    free(equation);
     return index;
 }
 
@@ -177,15 +190,6 @@ int field_map_add(struct builder *b, const char *equation, const char *shade,
     const int found = find(b, CODE_SHADE, equation);
 
     return found >= 0 || b->failed ? found : add_map(b, equation, shade, params, place);
-}
-
-int field_call_add(struct builder *b, const struct field_call *call)
-{
-    if (!call->is_equation) {
-        return field_code_add(b, CODE_DISTANCE, call->text, call->params, call->place);
-    }
-    const int found = find(b, CODE_DISTANCE, call->text);
-    return found >= 0 || b->failed ? found : add_equation(b, call);
 }
 
 /* Its numbers begin with `size`. */

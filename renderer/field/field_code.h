@@ -14,9 +14,9 @@ int field_code_add(struct builder *b, enum code_use use, const char *text,
  * found by the equation's text. */
 int field_map_add(struct builder *b, const char *equation, const char *shade,
                   const struct param *params, const char *place);
-/* The same for what a shape calls. */
-struct field_call;
-int field_call_add(struct builder *b, const struct field_call *call);
+/* The same for the distance of an equation that is no polynomial, which reads so many vec4s. */
+int field_equation_add(struct builder *b, const struct equation *equation,
+                       struct equation_form form, int vectors, const char *place);
 
 /* The caller frees it. NULL, and the builder's error: the text cannot be read. */
 struct equation *field_read_equation(struct builder *b, const char *text, const char *place);
@@ -30,7 +30,7 @@ struct field_call {
     bool is_equation;
     struct equation_form form;  /* of an equation */
     double ball[3];             /* full lengths of the box around it, where it is cut by a ball */
-    const struct param *params; /* what it declares, */
+    const struct param *params; /* what code declares; of an equation those from `size` on, */
     const struct value *values; /* and what the node gives; both borrowed */
     double lipschitz;
     const double *size;

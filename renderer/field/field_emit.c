@@ -188,8 +188,12 @@ static struct result emit_combine(struct builder *b, const struct node *node, co
 {
     struct field_instruction combine = {.op = FIELD_COMBINE, .type = node->type, .sdf = sdf};
 
+    const bool measured = b->measured;
+
     add_block(b, node, sdf, frame->scale, &combine);
+    b->measured = measured || node->type->record.params[0].name; /* other ones take one distance */
     struct fold fold = emit_folded(b, node, combine, frame, slot);
+    b->measured = measured;
     if (fold.whole.solid) {
         fold.whole.box = changed_box(node, sdf, fold.whole.box, fold.count);
     }
@@ -203,8 +207,12 @@ static struct result emit_distance(struct builder *b, const struct node *node,
     struct field_instruction change = {
         .op = FIELD_DISTANCE, .type = node->type, .sdf = sdf, .a = slot};
 
+    const bool measured = b->measured;
+
     add_block(b, node, sdf, frame->scale, &change);
+    b->measured = true;
     struct result whole = emit_union(b, node, frame, slot, FIELD_NOTHING, (struct result){0});
+    b->measured = measured;
     if (whole.solid) {
         builder_add_instruction(b, change);
         whole.box = changed_box(node, sdf, whole.box, 1);

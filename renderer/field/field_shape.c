@@ -175,20 +175,20 @@ static struct result emit_polynomial(struct builder *b, const struct node *node,
                                      const struct node_frame *frame, uint16_t slot, uint32_t number,
                                      const struct field_call *call, struct equation *equation)
 {
-    enum { LETTERS = 5 }; /* behind size, radius and thickness */
     const bool is_square = !call->form.sheet && equation_take_root(equation);
     const int degree = equation_degree(equation);
     const size_t rows = POLYNOMIAL_HEAD + polynomial_rows(degree);
     double declared[SDF_NUMBERS_MAX], cut[FIELD_CUT_NUMBERS];
     double c[POLYNOMIAL_COEFFICIENTS_MAX], *numbers = memory_alloc(4 * rows, sizeof *numbers);
     const struct bounds box = fill_cut(call, frame->scale, cut);
+
     cut[FIELD_JUMP] = POLYNOMIAL_ESTIMATE * call->extent * frame->scale;
     cut[FIELD_UNSTEADY] = hypot(POLYNOMIAL_ESTIMATE, EQUATION_REACH) * call->extent * frame->scale;
     sdf_numbers(call->params, call->values, declared);
     const double thickness = call->form.sheet ? declared[4] / call->extent
                              : is_square      ? POLYNOMIAL_THIN
                                               : -1;
-    equation_expand(equation, declared + LETTERS, call->extent, degree, c);
+    equation_expand(equation, declared + EQUATION_FORM_NUMBERS, call->extent, degree, c);
     const int count = polynomial_write(degree, c, numbers + (size_t)(4 * POLYNOMIAL_HEAD));
     fill_form(call, declared, thickness, degree, count, numbers);
     builder_add_trips(b, (uint64_t)polynomial_trips(degree, count));
@@ -218,12 +218,34 @@ static struct result emit_surface(struct builder *b, const struct node *node,
     return result;
 }
 
+/* Another equation: what its code reads are numbers of the field. */
+static struct result emit_equation(struct builder *b, const struct node *node,
+                                   const struct node_frame *frame, uint16_t slot, uint32_t number,
+                                   const struct field_call *call, const struct equation *equation)
+{
+    double declared[SDF_NUMBERS_MAX], numbers[4 * EQUATION_VECTORS], cut[FIELD_CUT_NUMBERS];
+    const struct equation_form form = {call->form.sheet, call->form.ball, .even = b->measured};
+
+    sdf_numbers(call->params, call->values, declared);
+    const int vectors =
+        equation_code_numbers(equation, declared, declared + EQUATION_FORM_NUMBERS, numbers);
+    const int index = field_equation_add(b, equation, form, vectors, call->place);
+    if (index < 0) {
+        return (struct result){0};
+    }
+    const struct bounds box = fill_cut(call, frame->scale, cut);
+    builder_add_trips(b, (uint64_t)code_trips(b->field->codes[index].code));
+    emit_numbers(b, node, frame, slot, number, NULL, (uint32_t)index, cut, numbers,
+                 (size_t)vectors);
+    return (struct result){.solid = true, .shown = true, .box = box};
+}
+
 /* A shape of a user's code: like another, but cut by a box and with its parameters apart. */
 static struct result emit_code(struct builder *b, const struct node *node,
                                const struct node_frame *frame, uint16_t slot, uint32_t number,
                                const struct field_call *call)
 {
-    const int index = field_call_add(b, call);
+    const int index = field_code_add(b, CODE_DISTANCE, call->text, call->params, call->place);
 
     if (index < 0) {
         return (struct result){0};
@@ -272,7 +294,7 @@ static struct result emit_called(struct builder *b, const struct node *node,
     if (equation && equation_degree(equation) >= 0) {
         result = emit_polynomial(b, node, frame, slot, number, &call, equation);
     } else if (equation) {
-        result = emit_code(b, node, frame, slot, number, &call);
+        result = emit_equation(b, node, frame, slot, number, &call, equation);
     }
     free(equation);
     return result;

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Duals and jets of equations (renderer/code/jets.h): products, sums and chain rules. */
 
+#include "field_mask.glsl"
+
 #define JET_MAX 1e18
+#define JET_SECANTS 8.0
 
 vec4 jet_dual_times(vec4 a, vec4 b)
 {
@@ -143,6 +146,26 @@ vec2 jet_begin(vec4 a, float reach)
     return vec2(abs(a.w), min(abs(a.w) / max(length(a.xyz), 1e-18), reach));
 }
 
+/* How much an estimate may be; 0: none is asked for. */
+float jet_room(float room)
+{
+    return field_estimates ? room : 0.0;
+}
+
+vec3 jet_ahead(vec3 p, vec4 a, vec2 at)
+{
+    return p - a.xyz * ((a.w < 0.0 ? -at.y : at.y) / max(length(a.xyz), 1e-18));
+}
+
+/* How far a parabola through these has its root. */
+float jet_estimated(vec4 a, vec2 at, vec4 ahead)
+{
+    float slope = length(a.xyz), reach = max(at.y, 1e-9);
+    float bend = ((a.w < 0.0 ? -ahead.w : ahead.w) - at.x + slope * reach) / reach;
+    float part = sqrt(max(slope * slope - 4.0 * bend * (at.x / reach), 0.0));
+    return 2.0 * at.x / max(slope + part, 1e-18);
+}
+
 float jet_steepest(mat3 a)
 {
     return max(length(max(abs(a[0]), abs(a[1]))), 1e-18);
@@ -176,4 +199,29 @@ vec2 jet_sheet(mat3 a, vec2 at, float thickness)
     less = free < 2.0 * grain && reach < 2.0 * thickness ? grain : max(less, grain);
     return vec2(last && apart && steepest > 1e17 ? grain : free,
                 last || free > 0.4 * reach ? 0.0 : less);
+}
+
+/* A search of the free way, see jets.h. */
+mat3 jet_search(vec4 a, float limit)
+{
+    float value = abs(a.w), begin = min(value / max(length(a.xyz), 1e-18), limit);
+    return mat3(begin, value, begin > 0.0 ? 0.0 : 2.0, 0.0, value, limit, limit, 0.0, 0.0);
+}
+
+mat3 jet_searched(mat3 a, mat3 search)
+{
+    float r = search[0].x, limit = search[1].z;
+    float free = max(max(a[2].x, -a[2].y), search[0].y - jet_steepest(a) * r);
+    float side = free > 0.0 ? 1.0 : -1.0, other = side == search[0].z ? 0.5 : 1.0;
+    bool whole = free > 0.0 && search[2].y == 0.0;
+    vec2 here = vec2(r, free), half_of = vec2(1.0, other);
+    vec2 low = free > 0.0 ? here : search[1].xy * half_of;
+    vec2 high = free > 0.0 ? search[2].xy * half_of : here;
+    float part = low.y / max(low.y - high.y, 1e-30), between = high.x - low.x;
+    bool halves = part < 0.02 || search[2].z >= JET_SECANTS;
+    float next = low.x + between * (halves ? 0.5 : part);
+    bool close = between < 1e-5 * next || (!halves && abs(next - r) < 2e-4 * r);
+    bool found = whole ? r >= limit : close;
+    return mat3(whole ? limit : next, search[0].y, found ? 2.0 : side, low, limit, high,
+                search[2].z + 1.0);
 }

@@ -146,6 +146,7 @@ float visible(Sight sight, int kind, int steps)
             i--;
             continue;
         }
+        d = field_estimates ? max(d, bound) : d;
         bound = field_estimates ? bound : d;
         field_estimates = false;
         if (kind == SIGHT_OPEN) {

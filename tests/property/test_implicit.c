@@ -69,15 +69,16 @@ static const struct {
 };
 enum { EQUATIONS = sizeof equations / sizeof equations[0] };
 
-static struct field *field_of(const char *text, const char *more)
+/* `around`: what the node stands in, before and behind it. */
+static struct field *field_in(const char *const around[2], const char *text, const char *more)
 {
     struct error err = {0};
     char json[1024];
 
     snprintf(json, sizeof json,
-             "{'format':'fieldcast/1','root':{'type':'implicit','params':{"
-             "'equation':'%s','a':0.75%s}}}",
-             text, more);
+             "{'format':'fieldcast/1','root':%s{'type':'implicit','params':{"
+             "'equation':'%s','a':0.75%s}}%s}",
+             around[0], text, more, around[1]);
     struct scene *scene = json_text_valid_scene(json);
     struct field *field = field_compile(scene, &err);
     if (!field) {
@@ -85,6 +86,11 @@ static struct field *field_of(const char *text, const char *more)
     }
     scene_destroy(scene);
     return field;
+}
+
+static struct field *field_of(const char *text, const char *more)
+{
+    return field_in((const char *const[]){"", ""}, text, more);
 }
 
 static struct equation *read(const char *text)
@@ -143,6 +149,75 @@ static void the_sign_holds_within_the_distance(void **state)
             }
         }
         free(equation);
+        field_unref(field);
+    }
+}
+
+/* --- where something draws at a distance of the surface --- */
+
+#define ROUNDED 0.05
+
+static struct field *rounded_field(const char *text, const char *more)
+{
+    static const char *const around[2] = {"{'type':'round','params':{'radius':0.05},'children':[",
+                                          "]}"};
+
+    return field_in(around, text, more);
+}
+
+static void distances_to_round_hold_the_sign(void **state)
+{
+    struct random random = {.state = 16};
+    int known = 0;
+    (void)state;
+
+    for (size_t e = 0; e < EQUATIONS; e++) {
+        struct field *field = rounded_field(equations[e].text, ",'size':[6,6,6]");
+        struct equation *equation = read(equations[e].text);
+        for (int i = 0; i < POINTS; i++) {
+            double p[3];
+            random_point(&random, 1.4, p);
+            const double f = equation_value(equation, p, letter_values);
+            const double d = field_distance(field, p) + ROUNDED;
+            known += fabs(d) > 0.02;
+            if (fabs(f) > 1e-6 && fabs(d) > 1e-6 &&
+                ((d < 0) != (f < 0) || count_other_side(&random, equation, p, fabs(d), f) > 0)) {
+                fail_msg("%s at (%.9g, %.9g, %.9g): distance %g, value %g", equations[e].text, p[0],
+                         p[1], p[2], d, f);
+            }
+        }
+        free(equation);
+        field_unref(field);
+    }
+    assert_true(known > (int)EQUATIONS * POINTS / 2);
+}
+
+/* In the clip, at its faces and around it: a ray that goes on by the distance meets the surface
+ * that is drawn at 0.05, and nothing of a jump is seen in it. */
+static void distances_to_round_change_by_no_more_than_the_way(void **state)
+{
+    struct random random = {.state = 17};
+    (void)state;
+
+    for (size_t e = 0; e < 2 * EQUATIONS; e++) {
+        const bool sheet = e % 2 != 0;
+        const char *text = equations[e / 2].text;
+        struct field *field = rounded_field(text, sheet ? ",'mode':'sheet','size':[2,2,2]"
+                                                        : ",'clip':'ball','radius':1.2");
+        for (int i = 0; i < POINTS; i++) {
+            double p[3], way[3], q[3];
+            const double length = pow(10, random_between(&random, -3, 0));
+            random_point(&random, 2.5, p);
+            random_direction(&random, way);
+            for (int k = 0; k < 3; k++) {
+                q[k] = p[k] + length * way[k];
+            }
+            const double change = fabs(field_distance(field, p) - field_distance(field, q));
+            if (change > 1.002 * length + 1e-6) {
+                fail_msg("%s at (%.9g, %.9g, %.9g): changes by %g on a way of %g", text, p[0], p[1],
+                         p[2], change, length);
+            }
+        }
         field_unref(field);
     }
 }
@@ -591,10 +666,11 @@ static void the_engine_agrees(void **state)
     struct random random = {.state = 16};
     (void)state;
 
-    for (size_t e = 0; e < EQUATIONS; e++) {
+    for (size_t e = 0; e < 2 * EQUATIONS; e++) {
         static const char *const modes[] = {"", ",'mode':'sheet','thickness':0.1",
                                             ",'clip':'ball','radius':1.2"};
-        struct field *field = field_of(equations[e].text, modes[e % 3]);
+        const char *text = equations[e / 2].text, *mode = modes[e / 2 % 3];
+        struct field *field = e % 2 != 0 ? rounded_field(text, mode) : field_of(text, mode);
         float points[POINTS][3], got[POINTS];
         for (int i = 0; i < POINTS; i++) {
             double p[3];
@@ -612,7 +688,7 @@ static void the_engine_agrees(void **state)
         }
         /* How often a box shrinks may differ where a comparison is close. */
         if (apart > POINTS / 50) {
-            fail_msg("%s: %d of %d points differ", equations[e].text, apart, POINTS);
+            fail_msg("%s: %d of %d points differ", text, apart, POINTS);
         }
         field_unref(field);
     }
@@ -632,6 +708,43 @@ static void letters_and_sizes_are_numbers(void **state)
     field_unref(first);
     field_unref(other);
     field_unref(more);
+}
+
+static void numbers_in_the_text_are_numbers(void **state)
+{
+    static const char text[] = "sin(2*x) + 0.5*y^2 = exp(z) + 1";
+    static const double p[3] = {0.3, 0.2, -0.1};
+    struct field *first = field_of(text, ""),
+                 *other = field_of("sin(2.25*x) + 0.75*y^2 = exp(z) + 3", ""),
+                 *more = field_of("sin(2*x) + 0.5*y^3 = exp(z) + 1", "");
+    (void)state;
+
+    assert_true(first->structure_hash == other->structure_hash);
+    assert_true(first->structure_hash != more->structure_hash);
+    assert_true(field_distance(first, p) < 0.9 * field_distance(other, p));
+    field_unref(first);
+    field_unref(other);
+    field_unref(more);
+}
+
+#define WAVES(NUMBER, MORE)                                                                        \
+    "{'type':'implicit','params':{'equation':'sin(" NUMBER "*x) = y + exp(z)'" MORE "}}"
+
+static void equations_share_code_of_the_same_form(void **state)
+{
+    struct error err;
+    struct scene *scene = json_text_valid_scene(
+        "{'format':'fieldcast/1','root':{'type':'union','children':[" WAVES("2", "") "," WAVES(
+            "3",
+            "") "," WAVES("2",
+                          ",'mode':'sheet'") ",{'type':'round','children':[" WAVES("2",
+                                                                                   "") "]}]}}");
+    struct field *field = field_compile(scene, &err);
+    (void)state;
+
+    assert_int_equal(field->code_count, 3);
+    field_unref(field);
+    scene_destroy(scene);
 }
 
 static double to_ball(const double p[3])
@@ -684,11 +797,15 @@ int main(void)
         cmocka_unit_test(ranges_hold_values_and_slopes),
         cmocka_unit_test(gradients_are_those_of_differences),
         cmocka_unit_test(the_sign_holds_within_the_distance),
+        cmocka_unit_test(distances_to_round_hold_the_sign),
+        cmocka_unit_test(distances_to_round_change_by_no_more_than_the_way),
         cmocka_unit_test(random_equations_keep_their_sign),
         cmocka_unit_test(the_clip_is_the_distance_beyond_its_margin),
         cmocka_unit_test(sheets_are_thin_and_whole),
         cmocka_unit_test(the_engine_agrees),
         cmocka_unit_test(letters_and_sizes_are_numbers),
+        cmocka_unit_test(numbers_in_the_text_are_numbers),
+        cmocka_unit_test(equations_share_code_of_the_same_form),
         cmocka_unit_test(the_bound_comes_near),
     };
 
