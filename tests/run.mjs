@@ -49,11 +49,17 @@ const environment = {
     FIELDCAST: path.join(build, 'fieldcast'),
     FIELDCAST_BUILD: build,
     CMOCKA_MESSAGE_OUTPUT: 'TAP',
-    // Freed memory is held back a little only, so that tests may watch how a process grows.
+    // Freed memory is held back a little only, so that tests may watch how a process grows. It is not
+    // given back to the kernel, which would hand it out again page by page when a driver compiles more.
     // Looking for leaks reads the storage of threads, and now and then crashes over one that has just
     // ended; without this interceptor it does not know that of drivers.
-    ASAN_OPTIONS:
-        'detect_leaks=1:detect_stack_use_after_return=1:quarantine_size_mb=8:intercept_tls_get_addr=0',
+    ASAN_OPTIONS: [
+        'detect_leaks=1',
+        'detect_stack_use_after_return=1',
+        'quarantine_size_mb=8',
+        'allocator_release_to_os_interval_ms=-1',
+        'intercept_tls_get_addr=0',
+    ].join(':'),
     UBSAN_OPTIONS: 'print_stacktrace=1:halt_on_error=1',
     LSAN_OPTIONS: `suppressions=${path.join(root, 'tests/support/lsan.supp')}:print_suppressions=0`,
     TSAN_OPTIONS: `suppressions=${path.join(root, 'tests/support/tsan.supp')}:atexit_sleep_ms=0`,
@@ -133,11 +139,13 @@ const OPTIMIZED = ['golden/test_golden', 'property/test_oracle', 'property/test_
 const optimized = (suite) => OPTIMIZED.includes(suite.name);
 
 // What costs much and finds nothing that other suites with the same code do not find. Numbers: they call
-// the same few functions for minutes. Faults: hundreds of processes that live for a moment and copy
-// each page that they touch.
+// the same few functions for minutes, and wait for compilers of drivers, whose freed memory fills what is
+// held back of ours within a moment, of whatever size that is. Faults: hundreds of processes that live
+// for a moment and copy each page that they touch.
+const ASAN_OF_NUMBERS = ':detect_stack_use_after_return=0:quarantine_size_mb=1';
 const ASAN_OF_KIND = {
-    property: ':detect_stack_use_after_return=0',
-    golden: ':detect_stack_use_after_return=0',
+    property: ASAN_OF_NUMBERS,
+    golden: ASAN_OF_NUMBERS,
     fault: ':quarantine_size_mb=1:thread_local_quarantine_size_kb=64',
 };
 const asanOptions = (suite) => environment.ASAN_OPTIONS + (ASAN_OF_KIND[kindOf(suite)] ?? '');
