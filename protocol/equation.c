@@ -8,19 +8,48 @@
 
 #include "equation_internal.h"
 
+const char *const equation_axes[] = {"x", "y", "z", NULL};
+
+/* clang-format off */
 const struct equation_function equation_functions[EQUATION_FUNCTIONS] = {
-    [EQUATION_SIN] = {"sin", 1},     [EQUATION_COS] = {"cos", 1},     [EQUATION_TAN] = {"tan", 1},
-    [EQUATION_ASIN] = {"asin", 1},   [EQUATION_ACOS] = {"acos", 1},   [EQUATION_ATAN] = {"atan", 1},
-    [EQUATION_SINH] = {"sinh", 1},   [EQUATION_COSH] = {"cosh", 1},   [EQUATION_TANH] = {"tanh", 1},
-    [EQUATION_EXP] = {"exp", 1},     [EQUATION_LOG] = {"log", 1},     [EQUATION_SQRT] = {"sqrt", 1},
-    [EQUATION_CBRT] = {"cbrt", 1},   [EQUATION_ABS] = {"abs", 1},     [EQUATION_SIGN] = {"sign", 1},
-    [EQUATION_FLOOR] = {"floor", 1}, [EQUATION_CEIL] = {"ceil", 1},   [EQUATION_MIN] = {"min", 2},
-    [EQUATION_MAX] = {"max", 2},     [EQUATION_ATAN2] = {"atan2", 2},
+    [EQUATION_SIN]   = {"sin",   1, EQUATION_CALLED, NULL,     NULL},
+    [EQUATION_COS]   = {"cos",   1, EQUATION_CALLED, NULL,     NULL},
+    [EQUATION_TAN]   = {"tan",   1, EQUATION_CALLED, NULL,     NULL},
+    [EQUATION_ASIN]  = {"asin",  1, EQUATION_CALLED, "arcsin", NULL},
+    [EQUATION_ACOS]  = {"acos",  1, EQUATION_CALLED, "arccos", NULL},
+    [EQUATION_ATAN]  = {"atan",  1, EQUATION_CALLED, "arctan", NULL},
+    [EQUATION_SINH]  = {"sinh",  1, EQUATION_CALLED, NULL,     NULL},
+    [EQUATION_COSH]  = {"cosh",  1, EQUATION_CALLED, NULL,     NULL},
+    [EQUATION_TANH]  = {"tanh",  1, EQUATION_CALLED, NULL,     NULL},
+    [EQUATION_EXP]   = {"exp",   1, EQUATION_RAISED, "e",      NULL},
+    [EQUATION_LOG]   = {"log",   1, EQUATION_CALLED, "ln",     NULL},
+    [EQUATION_SQRT]  = {"sqrt",  1, EQUATION_ROOT,   NULL,     NULL},
+    [EQUATION_CBRT]  = {"cbrt",  1, EQUATION_ROOT,   "3",      NULL},
+    [EQUATION_ABS]   = {"abs",   1, EQUATION_FENCED, "|",      "|"},
+    [EQUATION_SIGN]  = {"sign",  1, EQUATION_CALLED, "sgn",    NULL},
+    [EQUATION_FLOOR] = {"floor", 1, EQUATION_FENCED, "\u230a", "\u230b"},
+    [EQUATION_CEIL]  = {"ceil",  1, EQUATION_FENCED, "\u2308", "\u2309"},
+    [EQUATION_MIN]   = {"min",   2, EQUATION_CALLED, NULL,     NULL},
+    [EQUATION_MAX]   = {"max",   2, EQUATION_CALLED, NULL,     NULL},
+    [EQUATION_ATAN2] = {"atan2", 2, EQUATION_CALLED, NULL,     NULL},
 };
 
 const struct equation_constant equation_constants[] = {
-    {"pi", M_PI}, {"tau", 2 * M_PI}, {"e", M_E}, {"phi", 1.6180339887498949}, {NULL, 0},
+    {"pi",  M_PI,               "\u03c0"},
+    {"tau", 2 * M_PI,           "\u03c4"},
+    {"e",   M_E,                "e"},
+    {"phi", 1.6180339887498949, "\u03c6"},
+    {NULL,  0,                  NULL},
 };
+
+const struct equation_sign equation_relations[] = {
+    [EQUATION_EQUALS]        = {"=",  "="},
+    [EQUATION_LESS]          = {"<",  "&lt;"},
+    [EQUATION_LESS_EQUAL]    = {"<=", "\u2264"},
+    [EQUATION_GREATER]       = {">",  "&gt;"},
+    [EQUATION_GREATER_EQUAL] = {">=", "\u2265"},
+};
+/* clang-format on */
 
 const char *const equation_letters[] = {"a", "b", "c", "d", NULL};
 

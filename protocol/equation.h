@@ -63,15 +63,26 @@ enum equation_name {
     EQUATION_FUNCTIONS,
 };
 
+/* How a call is typeset (equation_mathml.h). */
+enum equation_notation {
+    EQUATION_CALLED, /* sin x, max(x, y) by `sign`, or by the name where that is NULL */
+    EQUATION_ROOT,   /* the root sign, with `sign` on it */
+    EQUATION_RAISED, /* to the power of the argument: `sign` */
+    EQUATION_FENCED, /* between `sign` and `close` */
+};
+
 struct equation_function {
     const char *name;
     int arguments;
+    enum equation_notation notation;
+    const char *sign, *close; /* NULL: none */
 };
 extern const struct equation_function equation_functions[EQUATION_FUNCTIONS];
 
 struct equation_constant {
     const char *name;
     double value;
+    const char *sign; /* as it is typeset */
 };
 extern const struct equation_constant equation_constants[]; /* ends with a name of NULL */
 
@@ -95,11 +106,28 @@ enum equation_relation {
     EQUATION_GREATER_EQUAL,
 };
 
+/* As a text has them, and as they are typeset. */
+struct equation_sign {
+    const char *text, *typeset;
+};
+extern const struct equation_sign equation_relations[];
+
 struct equation {
     struct equation_node nodes[LIMIT_EQUATION_NODES + 1]; /* room for left - right */
     size_t count;
     uint16_t left, right;
     enum equation_relation relation;
+};
+
+/* What a text defines: name := node. */
+enum { EQUATION_NAME_BYTES = 32 };
+struct equation_definition {
+    char name[EQUATION_NAME_BYTES];
+    uint16_t node;
+};
+struct equation_definitions {
+    struct equation_definition list[LIMIT_EQUATION_DEFINITIONS];
+    int count;
 };
 
 /* A place in the text, in code points from 1. */
@@ -131,6 +159,11 @@ struct equation *equation_read_expression(const char *text, const char *const *l
 /* The same, with a relation or without one. */
 struct equation *equation_read_relation(const char *text, const char *const *letters,
                                         struct equation_errors *out_errors);
+/* As equation_read, `plain`: as equation_read_expression. Names that the text defines stay names:
+ * they are letters that count on from `letters`, and are written out nowhere. NULL: it cannot be
+ * read so, as where a name stands for a number that is needed; equation_read may read it yet. */
+struct equation *equation_read_written(const char *text, const char *const *letters, bool plain,
+                                       struct equation_definitions *out);
 /* Canonical text; reading it gives the same text again. The caller frees it. */
 char *equation_print(const struct equation *equation, const char *const *letters);
 /* How many arguments a node has. */

@@ -5,16 +5,16 @@
 #include "equation_internal.h"
 
 const struct equation_function equation_composites[EQUATION_COMPOSITES] = {
-    [EQUATION_HYPOT] = {"hypot", 2},
-    [EQUATION_CLAMP] = {"clamp", 3},
-    [EQUATION_MIX] = {"mix", 3},
-    [EQUATION_LOG2] = {"log2", 1},
-    [EQUATION_POW] = {"pow", 2},
-    [EQUATION_FRACT] = {"fract", 1},
-    [EQUATION_MOD] = {"mod", 2},
-    [EQUATION_STEP] = {"step", 2},
-    [EQUATION_SMOOTHSTEP] = {"smoothstep", 3},
-    [EQUATION_CHEB] = {"cheb", 2},
+    [EQUATION_HYPOT] = {.name = "hypot", .arguments = 2},
+    [EQUATION_CLAMP] = {.name = "clamp", .arguments = 3},
+    [EQUATION_MIX] = {.name = "mix", .arguments = 3},
+    [EQUATION_LOG2] = {.name = "log2", .arguments = 1},
+    [EQUATION_POW] = {.name = "pow", .arguments = 2},
+    [EQUATION_FRACT] = {.name = "fract", .arguments = 1},
+    [EQUATION_MOD] = {.name = "mod", .arguments = 2},
+    [EQUATION_STEP] = {.name = "step", .arguments = 2},
+    [EQUATION_SMOOTHSTEP] = {.name = "smoothstep", .arguments = 3},
+    [EQUATION_CHEB] = {.name = "cheb", .arguments = 2},
 };
 
 struct maker {

@@ -5,6 +5,17 @@
 
 #include "equation.h"
 
+extern const char *const equation_axes[]; /* x, y and z; NULL at the end */
+
+/* A text that grows. */
+struct equation_text {
+    char *text;
+    size_t length, room;
+};
+void equation_put(struct equation_text *out, const char *text);
+/* The shortest text that strtod reads as `value`, with 15 or 17 digits. */
+void equation_number_text(double value, char out[32]);
+
 /* The index of a node like this one, which is added unless it is there. False: there are too
  * many, LIMIT_EQUATION_NODES, or LIMIT_EQUATION_WEIGHT of them written out. */
 bool equation_add(struct equation *equation, struct equation_node node, uint16_t *out);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "equation.h"
+#include "equation_internal.h"
 #include "memory.h"
 
 /* How tightly a node holds together. */
@@ -13,8 +13,7 @@ enum level { SUM, PRODUCT, SIGN, POWER, ATOM };
 struct printer {
     const struct equation *equation;
     const char *const *letters;
-    char *text;
-    size_t length, room;
+    struct equation_text out;
 };
 
 static enum level level_of(const struct equation_node *node)
@@ -36,16 +35,29 @@ static enum level level_of(const struct equation_node *node)
     }
 }
 
-static void put(struct printer *p, const char *text)
+void equation_put(struct equation_text *out, const char *text)
 {
     const size_t length = strlen(text);
 
-    if (p->room < p->length + length + 1) {
-        p->room = 2 * (p->length + length + 1);
-        p->text = memory_resize(p->text, p->room, 1);
+    if (out->room < out->length + length + 1) {
+        out->room = 2 * (out->length + length + 1);
+        out->text = memory_resize(out->text, out->room, 1);
     }
-    memcpy(p->text + p->length, text, length + 1);
-    p->length += length;
+    memcpy(out->text + out->length, text, length + 1);
+    out->length += length;
+}
+
+void equation_number_text(double value, char out[32])
+{
+    snprintf(out, 32, "%.15g", value);
+    if (strtod(out, NULL) != value) {
+        snprintf(out, 32, "%.17g", value);
+    }
+}
+
+static void put(struct printer *p, const char *text)
+{
+    equation_put(&p->out, text);
 }
 
 static void print_node(struct printer *p, uint16_t index, enum level least);
@@ -54,10 +66,7 @@ static void print_number(struct printer *p, double value)
 {
     char text[32];
 
-    snprintf(text, sizeof text, "%.15g", value);
-    if (strtod(text, NULL) != value) {
-        snprintf(text, sizeof text, "%.17g", value);
-    }
+    equation_number_text(value, text);
     put(p, text);
 }
 
@@ -71,8 +80,6 @@ static void print_two(struct printer *p, const struct equation_node *node, enum 
 
 static void print_bare(struct printer *p, const struct equation_node *node)
 {
-    static const char *const axes[] = {"x", "y", "z"};
-
     switch ((enum equation_op)node->op) {
     case EQUATION_NUMBER:
         print_number(p, node->value);
@@ -81,7 +88,7 @@ static void print_bare(struct printer *p, const struct equation_node *node)
         put(p, equation_constants[node->which].name);
         break;
     case EQUATION_AXIS:
-        put(p, axes[node->which]);
+        put(p, equation_axes[node->which]);
         break;
     case EQUATION_LETTER:
         put(p, p->letters[node->which]);
@@ -136,15 +143,12 @@ static void print_node(struct printer *p, uint16_t index, enum level least)
 
 char *equation_print(const struct equation *equation, const char *const *letters)
 {
-    static const char *const relations[] = {[EQUATION_EQUALS] = " = ",
-                                            [EQUATION_LESS] = " < ",
-                                            [EQUATION_LESS_EQUAL] = " <= ",
-                                            [EQUATION_GREATER] = " > ",
-                                            [EQUATION_GREATER_EQUAL] = " >= "};
     struct printer p = {.equation = equation, .letters = letters};
 
     print_node(&p, equation->left, SUM);
-    put(&p, relations[equation->relation]);
+    put(&p, " ");
+    put(&p, equation_relations[equation->relation].text);
+    put(&p, " ");
     print_node(&p, equation->right, SUM);
-    return p.text;
+    return p.out.text;
 }

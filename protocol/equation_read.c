@@ -13,27 +13,19 @@
 #include "suggest.h"
 #include "utf8.h"
 
-enum { NAME_BYTES = 32 };
-
-struct equation_part {
-    char name[NAME_BYTES];
-    uint16_t node;
-};
-
 struct reader {
     const char *text, *at;
     const char *const *letters;
     struct equation *equation;
     struct equation_errors *errors;
-    struct equation_part definitions[LIMIT_EQUATION_DEFINITIONS];
-    int definition_count, depth;
+    struct equation_definitions definitions;
+    struct equation_definitions *written; /* not NULL: names stay names, and stand for these */
+    int depth;
     bool ended;   /* what follows cannot be read */
     bool in_bars; /* between | and | */
     bool plain;   /* letters alone: x, y and z are no names */
     bool relates; /* a relation may stand in it */
 };
-
-static const char *const axes[] = {"x", "y", "z", NULL};
 
 /* --- errors --- */
 
@@ -227,7 +219,7 @@ static uint16_t compose(struct reader *r, enum equation_composite which, const u
 }
 
 /* Reads a name; its length. Digits belong to it, so x2 is no product. */
-static size_t read_name(struct reader *r, char out[NAME_BYTES])
+static size_t read_name(struct reader *r, char out[EQUATION_NAME_BYTES])
 {
     size_t length = 0;
 
@@ -236,22 +228,23 @@ static size_t read_name(struct reader *r, char out[NAME_BYTES])
            (length > 0 && isdigit((unsigned char)r->at[length]))) {
         length++;
     }
-    snprintf(out, NAME_BYTES, "%.*s", (int)length, r->at);
+    snprintf(out, EQUATION_NAME_BYTES, "%.*s", (int)length, r->at);
     r->at += length;
     return length;
 }
 
 /* "; write x*y" for xy. */
-static bool product_of(struct reader *r, const char *name, char out[2 * NAME_BYTES])
+static bool product_of(struct reader *r, const char *name, char out[2 * EQUATION_NAME_BYTES])
 {
     size_t used = 0;
 
-    for (const char *c = name; *c && used + 3 < 2 * NAME_BYTES; c++) {
+    for (const char *c = name; *c && used + 3 < 2 * EQUATION_NAME_BYTES; c++) {
         const char one[] = {*c, '\0'};
-        if (find(axes, one) < 0 && find(r->letters, one) < 0) {
+        if (find(equation_axes, one) < 0 && find(r->letters, one) < 0) {
             return false;
         }
-        used += (size_t)snprintf(out + used, 2 * NAME_BYTES - used, "%s%c", used ? "*" : "", *c);
+        used += (size_t)snprintf(out + used, 2 * EQUATION_NAME_BYTES - used, "%s%c",
+                                 used ? "*" : "", *c);
     }
     return name[0] && name[1];
 }
@@ -266,7 +259,7 @@ static const struct {
 static bool is_known(struct reader *r, const char *name)
 {
     int arguments;
-    bool known = (!r->plain && find(axes, name) >= 0) || find(r->letters, name) >= 0 ||
+    bool known = (!r->plain && find(equation_axes, name) >= 0) || find(r->letters, name) >= 0 ||
                  function_of(name, &arguments) >= 0;
 
     for (int i = 0; equation_constants[i].name; i++) {
@@ -276,14 +269,14 @@ static bool is_known(struct reader *r, const char *name)
 }
 
 /* What is surely meant: PI, X, ln. NULL: nothing. */
-static const char *meant_by(struct reader *r, const char *name, char lower[NAME_BYTES])
+static const char *meant_by(struct reader *r, const char *name, char lower[EQUATION_NAME_BYTES])
 {
     for (size_t i = 0; i < sizeof aliases / sizeof aliases[0]; i++) {
         if (strcmp(aliases[i].name, name) == 0) {
             return aliases[i].ours;
         }
     }
-    for (size_t i = 0; i < NAME_BYTES; i++) {
+    for (size_t i = 0; i < EQUATION_NAME_BYTES; i++) {
         lower[i] = (char)tolower((unsigned char)name[i]);
         if (!name[i]) {
             break;
@@ -322,7 +315,7 @@ static const char *hint_letters(struct reader *r, const char *name, char *out, s
 
 static void note_unknown(struct reader *r, const char *name, bool called, const char *at)
 {
-    char product[2 * NAME_BYTES], hint[128], lower[NAME_BYTES];
+    char product[2 * EQUATION_NAME_BYTES], hint[128], lower[EQUATION_NAME_BYTES];
     const char *meant = meant_by(r, name, lower);
     struct suggestion near = {.text = name, .best = meant};
 
@@ -334,7 +327,7 @@ static void note_unknown(struct reader *r, const char *name, bool called, const 
         suggest(name, called, &near);
     }
     suggest_hint(&near, hint, sizeof hint);
-    if (!near.best && !called && find(axes, name) < 0) {
+    if (!near.best && !called && find(equation_axes, name) < 0) {
         hint_letters(r, name, hint, sizeof hint);
     }
     note(r, at, "\"%s\" is no %s%s", name, called ? "function" : "name", hint);
@@ -344,12 +337,12 @@ static uint16_t value_of(struct reader *r, const char *name, const char *at)
 {
     int arguments;
 
-    for (int i = 0; i < r->definition_count; i++) {
-        if (strcmp(r->definitions[i].name, name) == 0) {
-            return r->definitions[i].node;
+    for (int i = 0; i < r->definitions.count; i++) {
+        if (strcmp(r->definitions.list[i].name, name) == 0) {
+            return r->definitions.list[i].node;
         }
     }
-    const int axis = r->plain ? -1 : find(axes, name), letter = find(r->letters, name);
+    const int axis = r->plain ? -1 : find(equation_axes, name), letter = find(r->letters, name);
     if (axis >= 0 || letter >= 0) {
         return add(r, (struct equation_node){.op = axis >= 0 ? EQUATION_AXIS : EQUATION_LETTER,
                                              .which = (uint8_t)(axis >= 0 ? axis : letter)});
@@ -440,20 +433,20 @@ static uint16_t read_number(struct reader *r)
 
 static uint16_t read_named(struct reader *r)
 {
-    char name[NAME_BYTES];
+    char name[EQUATION_NAME_BYTES];
     const char *at = r->at;
 
-    if (read_name(r, name) >= NAME_BYTES) {
-        note(r, at, "names are at most %d letters long", NAME_BYTES - 1);
+    if (read_name(r, name) >= EQUATION_NAME_BYTES) {
+        note(r, at, "names are at most %d letters long", EQUATION_NAME_BYTES - 1);
         return 0;
     }
     int arguments;
     const bool calls = *r->at == '(' || (function_of(name, &arguments) >= 0 && next_is(r, "("));
-    const bool is_value = find(axes, name) >= 0 || find(r->letters, name) >= 0;
+    const bool is_value = find(equation_axes, name) >= 0 || find(r->letters, name) >= 0;
     if (calls && !is_value) {
-        for (int i = 0; i < r->definition_count; i++) {
-            if (strcmp(r->definitions[i].name, name) == 0) {
-                return r->definitions[i].node;
+        for (int i = 0; i < r->definitions.count; i++) {
+            if (strcmp(r->definitions.list[i].name, name) == 0) {
+                return r->definitions.list[i].node;
             }
         }
         for (int i = 0; equation_constants[i].name; i++) {
@@ -626,35 +619,51 @@ static uint16_t read_expression(struct reader *r)
     return value;
 }
 
+static void define(struct reader *r, struct equation_definition next)
+{
+    int letters = 0;
+
+    if (r->written) {
+        while (r->letters[letters]) {
+            letters++;
+        }
+        r->written->list[r->written->count] = next;
+        next.node = add(r, (struct equation_node){.op = EQUATION_LETTER,
+                                                  .which = (uint8_t)(letters + r->written->count)});
+        r->written->count++;
+    }
+    r->definitions.list[r->definitions.count++] = next;
+}
+
 /* Reads "name := expression;" if that is next. */
 static bool read_definition(struct reader *r)
 {
-    struct equation_part next;
+    struct equation_definition next;
     const char *begin = r->at, *at;
     int arguments;
 
     skip_space(r);
     at = r->at;
-    if (!(isalpha((unsigned char)*at) || *at == '_') || read_name(r, next.name) >= NAME_BYTES ||
-        !take(r, ":=")) {
+    if (!(isalpha((unsigned char)*at) || *at == '_') ||
+        read_name(r, next.name) >= EQUATION_NAME_BYTES || !take(r, ":=")) {
         r->at = begin;
         return false;
     }
-    if (find(axes, next.name) >= 0 || function_of(next.name, &arguments) >= 0) {
+    if (find(equation_axes, next.name) >= 0 || function_of(next.name, &arguments) >= 0) {
         note(r, at, "\"%s\" has a meaning already; choose another name", next.name);
     }
-    for (int i = 0; i < r->definition_count; i++) {
-        if (strcmp(r->definitions[i].name, next.name) == 0) {
+    for (int i = 0; i < r->definitions.count; i++) {
+        if (strcmp(r->definitions.list[i].name, next.name) == 0) {
             note(r, at, "\"%s\" is defined twice", next.name);
         }
     }
     next.node = read_expression(r);
-    if (r->definition_count == LIMIT_EQUATION_DEFINITIONS && !r->ended) {
+    if (r->definitions.count == LIMIT_EQUATION_DEFINITIONS && !r->ended) {
         r->ended = true;
         note(r, at, "more than %d definitions (equation_definitions)", LIMIT_EQUATION_DEFINITIONS);
     }
     if (!r->ended) {
-        r->definitions[r->definition_count++] = next;
+        define(r, next);
         if (!take(r, ";")) {
             r->ended = true;
             note(r, r->at, "expected \";\" after the definition of \"%s\"", next.name);
@@ -724,53 +733,68 @@ static void check_finite(struct reader *r)
     }
 }
 
-static struct equation *read_text(const char *text, const char *const *letters, bool plain,
-                                  bool relates, struct equation_errors *out_errors)
+/* What is told of a text that was read to its end. */
+static void check_values(struct reader *r)
 {
-    struct equation *equation = memory_alloc(1, sizeof *equation);
-    struct reader r = {.text = text,
-                       .at = text,
-                       .letters = letters,
-                       .equation = equation,
-                       .errors = out_errors,
-                       .plain = plain,
-                       .relates = relates};
+    if (!r->plain && !r->written) {
+        check_varies(r);
+        check_finite(r);
+    }
+}
 
-    out_errors->count = 0;
+static struct equation *read_text(struct reader r)
+{
+    r.at = r.text;
+    r.equation = memory_alloc(1, sizeof *r.equation);
+    r.errors->count = 0;
     while (!r.ended && read_definition(&r)) {
     }
     if (!r.ended) {
-        equation->left = read_expression(&r);
+        r.equation->left = read_expression(&r);
     }
-    if (!r.ended && relates) {
+    if (!r.ended && r.relates) {
         read_relation(&r);
     }
     check_end(&r);
-    if (!plain) {
-        check_varies(&r);
-        check_finite(&r);
-    }
-    if (out_errors->count > 0) {
-        free(equation);
+    check_values(&r);
+    if (r.errors->count > 0) {
+        free(r.equation);
         return NULL;
     }
-    return equation;
+    return r.equation;
 }
 
 struct equation *equation_read(const char *text, const char *const *letters,
                                struct equation_errors *out_errors)
 {
-    return read_text(text, letters, false, true, out_errors);
+    return read_text(
+        (struct reader){.text = text, .letters = letters, .errors = out_errors, .relates = true});
 }
 
 struct equation *equation_read_expression(const char *text, const char *const *letters,
                                           struct equation_errors *out_errors)
 {
-    return read_text(text, letters, true, false, out_errors);
+    return read_text(
+        (struct reader){.text = text, .letters = letters, .errors = out_errors, .plain = true});
 }
 
 struct equation *equation_read_relation(const char *text, const char *const *letters,
                                         struct equation_errors *out_errors)
 {
-    return read_text(text, letters, true, true, out_errors);
+    return read_text((struct reader){
+        .text = text, .letters = letters, .errors = out_errors, .plain = true, .relates = true});
+}
+
+struct equation *equation_read_written(const char *text, const char *const *letters, bool plain,
+                                       struct equation_definitions *out)
+{
+    struct equation_errors errors;
+
+    out->count = 0;
+    return read_text((struct reader){.text = text,
+                                     .letters = letters,
+                                     .errors = &errors,
+                                     .written = out,
+                                     .plain = plain,
+                                     .relates = !plain});
 }

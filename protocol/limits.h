@@ -82,6 +82,8 @@
     X(ALGEBRA_KEPT, "algebra_kept", 16, "questions", "those of the algebra that may be read")      \
     X(ALGEBRA_SHARE, "algebra_share", 4, "questions", "the same, of one client")                   \
     X(EQUATION_DEFINITIONS, "equation_definitions", 32, "definitions", "those of an equation")     \
+    X(TYPESET_NODES, "typeset_nodes", 400, "operations",                                           \
+      "each line of an equation that is typeset, before an ellipsis")                              \
     X(JUDGED_EQUATIONS, "judged_equations", 16, "equations", "an answer about how they are drawn") \
     X(COMPILE_MS, "compile_ms", 60000, "milliseconds", "compiling a scene")                        \
     X(COMPILE_CODE_MS, "compile_code_ms", 2000, "milliseconds",                                    \

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Equations over HTTP: those of parametric surfaces found and proved, those of a scene judged. */
+/* Equations over HTTP: those of parametric surfaces found and proved, those of a scene judged, and
+ * texts typeset. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/nodes.h"
+#include "protocol/typeset.h"
 #include "routes.h"
 #include "server/algebra.h"
 #include "server/live/hub.h"
@@ -171,4 +173,22 @@ void equations_judge(struct request *request)
     } else {
         request_reply_error(request, &err);
     }
+}
+
+/* --- typeset --- */
+
+void equations_typeset(struct request *request)
+{
+    struct error err = {0};
+    struct record asked;
+    cJSON *json = json_parse(request->body, request->body_length, &err);
+
+    record_init(&asked, &typeset_type);
+    if (json && record_read(&asked, json, "", &err)) {
+        request_reply_json(request, 200, typeset(&asked));
+    } else {
+        request_reply_error(request, &err);
+    }
+    record_finish(&asked);
+    cJSON_Delete(json);
 }

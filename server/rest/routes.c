@@ -30,6 +30,7 @@ static const struct route table[] = {
     {"GET", "/v1/implicitize/{}", implicitize_look, BODY_NONE, GUARDED, SCENE_NONE},
     {"DELETE", "/v1/implicitize/{}", implicitize_cancel, BODY_NONE, GUARDED, SCENE_NONE},
     {"POST", "/v1/verify", equations_verify, BODY_QUESTION, GUARDED, SCENE_NEW},
+    {"POST", "/v1/typeset", equations_typeset, BODY_QUESTION, GUARDED, SCENE_NEW},
     {"POST", "/v1/groebner", groebner_begin, BODY_QUESTION, GUARDED, SCENE_NEW},
     {"GET", "/v1/groebner/{}", groebner_look, BODY_NONE, GUARDED, SCENE_NONE},
     {"DELETE", "/v1/groebner/{}", groebner_cancel, BODY_NONE, GUARDED, SCENE_NONE},

@@ -36,6 +36,7 @@ void images_queue(struct request *request);
 void equations_implicitize(struct request *request);
 void equations_verify(struct request *request);
 void equations_judge(struct request *request);
+void equations_typeset(struct request *request);
 /* Replies with the id of a question of the algebra, at /v1/ROAD/ID; copies `asked`. */
 void question_begin(struct request *request, const char *road, const struct record *asked);
 void implicitize_look(struct request *request);
