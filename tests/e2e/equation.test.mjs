@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Equations: the picture follows each text that can be read, the last good picture stays otherwise,
-// and the mark stands under the letter that is wrong.
+// Equations: the picture and what is typeset follow each text that can be read, the last good ones stay
+// otherwise, and marks stand under the letters that are wrong.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { until } from '../support/daemon.mjs';
 import {
     difference,
     documentWhen,
@@ -62,6 +63,45 @@ test('is typed letter by letter; what cannot be read is marked and leaves the pi
     await page.keyboard.press('Enter');
     await equationIs('x^2 + y^2 + z^2 = 1 + x');
     await pictureChanged(page, ball, 'the moved ball');
+});
+
+test('is typeset while it is typed; the last that can be read stays dimmed, and each fault is marked', async () => {
+    await open();
+    const set = page.getByRole('region', { name: 'typeset' });
+    /* Without what is invisible. */
+    const lines = async () => (await set.locator('math').allTextContents()).map((line) => line.replace(/[\u2061\u2062]/g, ''));
+    const shows = (...wanted) => until(async () => String(await lines()) === String(wanted), `${wanted} typeset`);
+    const marked = () => page.locator('.equation-mark mark').allTextContents();
+
+    assert.equal(await set.count(), 0, 'nothing is typeset before something is typed');
+    await text().click();
+    await page.keyboard.type('x^2', { delay: 20 });
+    await shows('x2=0');
+    await page.keyboard.type('/4 + sin(z) < a', { delay: 20 });
+    await shows('x24+sinz<a');
+    assert.equal(await set.locator('mfrac msup').count(), 1, 'a power in a fraction');
+    assert.equal(await set.getAttribute('data-old'), null);
+
+    page.expected = /compile/;
+    await page.keyboard.type(' + q*sine(z) + max(z)', { delay: 20 });
+    await until(async () => String(await marked()) === 'q,sine,max', 'three marks');
+    const faults = page.locator('.equation-faults li');
+    assert.equal(await faults.count(), 3);
+    assert.equal(await faults.nth(1).textContent(), '"sine" is no function; did you mean "sin"?');
+    assert.deepEqual(await lines(), ['x24+sinz<a'], 'the last that could be read stays');
+    assert.equal(await set.getAttribute('data-old'), 'true');
+
+    await text().fill('r := x^2; (r + y^2 + z^2 - 1)^3 = r*z^3');
+    await shows('r≔x2', '(r+y2+z2−1)3=rz3');
+    await set.and(page.locator(':not([data-old])')).waitFor();
+    assert.equal(await faults.count(), 0);
+
+    await text().fill(Array.from({ length: 200 }, (_, i) => `${i}*x^2*y`).join(' + '));
+    await until(async () => (await lines()).at(-1)?.endsWith('+⋯=0'), 'an ellipsis');
+    const [inner, outer] = await Promise.all([set.boundingBox(), text().boundingBox()]);
+    assert.ok(inner.width <= outer.width + 1 && inner.height < 220, 'a long one scrolls');
+    await page.keyboard.press('Escape');
+    await set.waitFor({ state: 'detached' });
 });
 
 test('a letter is a number, and the picture follows it', async () => {

@@ -51,6 +51,9 @@ test('a new one is seen at once, follows what is typed, and says where a text is
     await settled(page);
     const helicoid = await stillPixels(page);
 
+    const set = await page.locator('.patches .typeset math').allTextContents();
+    assert.deepEqual(set.map((line) => line.replace(/[\u2061\u2062]/g, '')), ['scost', 'at4', 'ssint'], 'each part is typeset');
+
     await field(page, 'a').fill('0.3');
     await page.keyboard.press('Enter');
     await pictureChanged(page, helicoid, 'the flatter helicoid');

@@ -121,7 +121,12 @@ function Question({ asked, basis, onChange }: Props & { basis: Basis | null }) {
                 spellCheck={false}
                 onChange={({ target }) => onChange({ ...asked, generators: target.value })}
             />
-            {wrong?.line && <Mark text={generators} line={wrong.line} column={wrong.column ?? 1} />}
+            {wrong?.line && (
+                <Mark
+                    text={generators}
+                    faults={[{ line: wrong.line, column: wrong.column ?? 1 }]}
+                />
+            )}
             {params
                 .filter(({ name }) => name !== "generators")
                 .map((param) => (

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* An equation. The picture follows what is typed, as long as it can be read; where it cannot, a mark
- * stands under the letter. Escape restores what was there. */
+/* An equation. The picture and the equation as it is typeset follow what is typed, as long as it can
+ * be read; where it cannot, marks stand under the letters. Escape restores what was there. */
 import { lazyPart } from "../lazy.tsx";
 import { useDocument, useView } from "../state.ts";
-import { Mark } from "./Mark.tsx";
 import { useTypedText } from "./typedText.ts";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
+const Typeset = lazyPart(() => import("./Typeset.tsx"));
 const QualityBadge = lazyPart(() => import("./Quality.tsx"));
 
 interface Props extends FieldProps<string> {
@@ -39,9 +39,11 @@ export function EquationField(props: Props) {
                 autoComplete="off"
                 {...listeners}
             />
-            {problem?.line !== undefined && (
-                <Mark text={shown} line={problem.line} column={problem.column ?? 1} />
-            )}
+            <Typeset
+                text={shown}
+                form={place.endsWith("/function") ? "function" : "equation"}
+                problem={problem}
+            />
             {node !== undefined && alone && <QualityBadge node={node} place={place} />}
         </div>
     );

@@ -1,29 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-/* The letter of a text that an error is about, with some around it. */
+/* The letters of a text that errors are about, with some around them. */
+import { type Fault, markedLines } from "../../model/faults.ts";
 import "./fields.css";
 
 interface MarkProps {
     text: string;
-    /* From 1, in code points. */
-    line: number;
-    column: number;
+    faults: readonly Pick<Fault, "line" | "column">[];
 }
 
-/* Letters before and behind the one that is meant. */
-const AROUND = 14;
-
-export function Mark({ text, line, column }: MarkProps) {
-    const row = [...(text.split("\n")[line - 1] ?? "")];
-    const at = Math.min(column - 1, row.length);
-    const from = Math.max(0, at - AROUND);
-    const to = at + 1 + AROUND;
-    return (
-        <pre className="equation-mark" aria-hidden="true">
-            {from > 0 && "…"}
-            {row.slice(from, at).join("")}
-            <mark>{row[at] ?? " "}</mark>
-            {row.slice(at + 1, to).join("")}
-            {to < row.length && "…"}
+export function Mark({ text, faults }: MarkProps) {
+    return markedLines(text, faults).map((pieces, i) => (
+        // biome-ignore lint/suspicious/noArrayIndexKey: lines have no other name
+        <pre key={i} className="equation-mark" aria-hidden="true">
+            {pieces.map((piece, k) =>
+                piece.wrong ? (
+                    // biome-ignore lint/suspicious/noArrayIndexKey: pieces have no other name
+                    <mark key={k}>{piece.text}</mark>
+                ) : (
+                    piece.text
+                ),
+            )}
         </pre>
-    );
+    ));
 }

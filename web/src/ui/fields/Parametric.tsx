@@ -12,18 +12,20 @@ import {
     type SurfaceValue,
     surfaceValue,
 } from "../../model/surface.ts";
+import { lazyPart } from "../lazy.tsx";
 import { paramTitle } from "../names.ts";
 import { useDocument } from "../state.ts";
 import { t } from "../texts.ts";
 import { Button } from "../widgets/Button.tsx";
 import { Dialog } from "../widgets/Dialog.tsx";
 import { Select } from "../widgets/Select.tsx";
-import { Mark } from "./Mark.tsx";
 import { NumberField } from "./Number.tsx";
 import { CancelSearch, searchText } from "./SearchState.tsx";
 import { coverageSentence, surfaceText } from "./surfaceTexts.ts";
 import { type Search, useEquation } from "./useEquation.ts";
 import "./fields.css";
+
+const Typeset = lazyPart(() => import("./Typeset.tsx"));
 
 /* Whitney's umbrella. */
 const FIRST: Surface = { texts: { x: "s*t", y: "s", z: "t^2" }, ranges: {} };
@@ -210,7 +212,7 @@ function Part({ part, text, problem, onChange }: PartProps) {
                 aria-invalid={problem !== null || undefined}
                 onChange={({ target }) => onChange(target.value)}
             />
-            {problem?.line && <Mark text={text} line={problem.line} column={problem.column ?? 1} />}
+            <Typeset text={text} form="expression" problem={problem} tells={false} />
         </div>
     );
 }

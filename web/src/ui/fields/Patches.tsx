@@ -22,7 +22,6 @@ import {
 import { lazyPart } from "../lazy.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { Button } from "../widgets/Button.tsx";
-import { Mark } from "./Mark.tsx";
 import { Range } from "./Parametric.tsx";
 import { CancelSearch, searchText } from "./SearchState.tsx";
 import { coverageSentence, surfaceText } from "./surfaceTexts.ts";
@@ -34,6 +33,7 @@ import "./fields.css";
 const NOTHING: Surface = { texts: { x: "", y: "", z: "" }, ranges: {} };
 const OWN_LETTERS = ["a", "b", "c", "d"];
 
+const Typeset = lazyPart(() => import("./Typeset.tsx"));
 const QualityBadge = lazyPart(() => import("./Quality.tsx"));
 
 interface Props extends FieldProps<SurfaceValue> {
@@ -115,9 +115,7 @@ function PartField({ label, part, place, text, onInput, onCommit, onCancel }: Pa
                 aria-invalid={problem !== null || undefined}
                 {...listeners}
             />
-            {problem?.line !== undefined && (
-                <Mark text={shown} line={problem.line} column={problem.column ?? 1} />
-            )}
+            <Typeset text={shown} form="expression" problem={problem} />
         </div>
     );
 }
