@@ -3,6 +3,7 @@
  * render settings. */
 #include <string.h>
 
+#include "equation.h"
 #include "kinds.h"
 #include "limits.h"
 #include "nodes.h"
@@ -295,11 +296,8 @@ const struct record_type shader_types[] = {
         {"lines", PARAM_INT, .def = {10}, .min = 0, .max = 1000, .step = 1, .main = true,
          .doc = "Contour lines between the two values; 0 for none. One of them is at 0."},
         {"slope", PARAM_BOOL,
-         .doc = "Colours by the length of the function's gradient, not by its value."},
-        {"a", LETTER, .when = "function~a", .doc = "The letter a in the function."},
-        {"b", LETTER, .when = "function~b", .doc = "The letter b."},
-        {"c", LETTER, .when = "function~c", .doc = "The letter c."},
-        {"d", LETTER, .when = "function~d", .doc = "The letter d."},
+         .doc = "Colours by the length of the function's gradient, not by its value."}
+        EQUATION_LETTERS_EACH(LETTER_ROW, "function", false),
         {"roughness", PARAM_FLOAT, .def = {0.4}, .min = 0, .max = 1, .step = 0.05,
          .means = "roughness", .doc = "From 0, a mirror, to 1, matt."})},
     {.name = NULL},

@@ -51,7 +51,8 @@ const struct equation_sign equation_relations[] = {
 };
 /* clang-format on */
 
-const char *const equation_letters[] = {"a", "b", "c", "d", NULL};
+#define LETTER_NAME(LETTER, ...) LETTER,
+const char *const equation_letters[] = {EQUATION_LETTERS_EACH(LETTER_NAME, ) NULL};
 
 int equation_arguments(const struct equation_node *node)
 {

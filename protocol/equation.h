@@ -146,8 +146,26 @@ struct equation_errors {
 bool equation_errors_tell(const struct equation_errors *errors, enum error_kind kind,
                           const char *place, struct error *err);
 
-/* The letters of a node `implicit`, which are numbers of it; NULL at the end. */
-extern const char *const equation_letters[];
+/* THE LIST of letters that are numbers of whatever has an equation: EACH(letter, ...). Not among
+ * them are the axes, e, the parameters of surfaces, and what looks like a digit or another unit. */
+#define EQUATION_LETTERS_EACH(EACH, ...)                                                           \
+    EACH("a", __VA_ARGS__)                                                                         \
+    EACH("b", __VA_ARGS__)                                                                         \
+    EACH("c", __VA_ARGS__)                                                                         \
+    EACH("d", __VA_ARGS__)                                                                         \
+    EACH("f", __VA_ARGS__)                                                                         \
+    EACH("g", __VA_ARGS__)                                                                         \
+    EACH("h", __VA_ARGS__)                                                                         \
+    EACH("k", __VA_ARGS__)                                                                         \
+    EACH("m", __VA_ARGS__)                                                                         \
+    EACH("n", __VA_ARGS__)                                                                         \
+    EACH("p", __VA_ARGS__)                                                                         \
+    EACH("q", __VA_ARGS__)                                                                         \
+    EACH("r", __VA_ARGS__)                                                                         \
+    EACH("w", __VA_ARGS__)
+#define EQUATION_COUNT_LETTER(LETTER, ...) +1
+enum { EQUATION_LETTERS = EQUATION_LETTERS_EACH(EQUATION_COUNT_LETTER, ) };
+extern const char *const equation_letters[EQUATION_LETTERS + 1]; /* NULL at the end */
 
 /* `letters` are further names that may be used, NULL at the end. The caller frees the result. NULL:
  * at least one error, in the order in which they were found. */

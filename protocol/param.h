@@ -71,8 +71,13 @@ struct param {
     const char *doc;
 };
 
-/* Of the row of a letter of an equation. */
-#define LETTER PARAM_FLOAT, UNIT_NONE, .def = {1}, .step = 0.01
+/* One more row: of a letter of an equation, which matters where it stands in the parameter IN. */
+#define LETTER_ROW(LETTER, IN, MAIN)                                                               \
+    ,                                                                                              \
+    {                                                                                              \
+        LETTER, PARAM_FLOAT, UNIT_NONE, .def = {1}, .step = 0.01, .when = IN "~" LETTER,           \
+                                        .main = MAIN, .doc = "The letter " LETTER "."              \
+    }
 
 /* Always holds something that its row accepts. */
 struct value {

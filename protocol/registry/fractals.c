@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Registry: fractals, minimal surfaces and landscapes. */
+#include "protocol/equation.h"
 #include "rows.h"
 
 /* Handle: half of the wall along its normal (1, 1, -1). */
@@ -77,11 +78,8 @@ const struct node_type node_fractals[] = {
         {"radius", PARAM_FLOAT, SIZE, .def = {1.5}, .when = "clip=ball",
          .handle = "radius, 0, 0", .doc = "Of the ball."},
         {"thickness", PARAM_FLOAT, SIZE, .def = {0.03}, .when = "mode=sheet",
-         .doc = "Of the sheet."},
-        {"a", LETTER, .when = "equation~a", .main = true, .doc = "The letter a in the equation."},
-        {"b", LETTER, .when = "equation~b", .doc = "The letter b."},
-        {"c", LETTER, .when = "equation~c", .doc = "The letter c."},
-        {"d", LETTER, .when = "equation~d", .doc = "The letter d."})},
+         .doc = "Of the sheet."}
+        EQUATION_LETTERS_EACH(LETTER_ROW, "equation", true))},
      .number = 75, .group = GROUP_PRIMITIVE, .kind = KIND_EQUATION, .exactness = BOUND,
      .lipschitz = 0, .glsl = "", .words = "equation function algebraic surface polynomial "
      "isosurface maths formula quadric",
@@ -94,11 +92,8 @@ const struct node_type node_fractals[] = {
         {"detail", PARAM_ENUM, .choices = (const char *const[]){"coarse", "fine", "finest", NULL},
          .def = {1}, .doc = "Patches along each parameter: 16, 32 or 64."},
         {"thickness", PARAM_FLOAT, SIZE, .def = {0.05}, .main = true, .handle = OUT("thickness/2"),
-         .doc = "Of the sheet."},
-        {"a", LETTER, .when = "surface~a", .doc = "The letter a in the surface."},
-        {"b", LETTER, .when = "surface~b", .doc = "The letter b."},
-        {"c", LETTER, .when = "surface~c", .doc = "The letter c."},
-        {"d", LETTER, .when = "surface~d", .doc = "The letter d."})},
+         .doc = "Of the sheet."}
+        EQUATION_LETTERS_EACH(LETTER_ROW, "surface", false))},
      .number = 76, .group = GROUP_PRIMITIVE, .kind = KIND_SURFACE, .exactness = BOUND,
      .lipschitz = 0, .glsl = "", .words = "function patch spline bezier sheet helicoid maths "
      "formula mesh curve",

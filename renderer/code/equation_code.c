@@ -193,7 +193,7 @@ static void write_search(const struct equation_writer *w, uint16_t root, bool sh
 /* The function at a point: (gradient, value). */
 static void write_function(const struct equation_writer *w, uint16_t root)
 {
-    fputs("vec4 function_at(vec3 p)\n{\n", w->out);
+    fputs("vec4 function_at(vec3 point)\n{\n", w->out);
     write_nodes(w, false, equation_write_scalar);
     write_nodes(w, true, equation_write_gradient);
     fprintf(w->out, varies(w, root) ? "return g%d;\n}\n" : "return vec4(0.0, 0.0, 0.0, s%d);\n}\n",

@@ -159,8 +159,8 @@ static void write_dual_call(const struct equation_writer *w, const struct equati
 
 void equation_write_gradient(const struct equation_writer *w, size_t index)
 {
-    static const char *const axes[] = {"1.0, 0.0, 0.0, p.x", "0.0, 1.0, 0.0, p.y",
-                                       "0.0, 0.0, 1.0, p.z"};
+    static const char *const axes[] = {"1.0, 0.0, 0.0, point.x", "0.0, 1.0, 0.0, point.y",
+                                       "0.0, 0.0, 1.0, point.z"};
     const struct equation_node *node = &w->equation->nodes[index];
 
     write_dual_power_below(w, index);

@@ -7,7 +7,7 @@
 #include "protocol/surface.h"
 
 /* The two parameters, in the order of surface_names, then the letters of equation_letters. */
-enum { SURFACE_SAMPLE_LETTERS = 8 };
+enum { SURFACE_SAMPLE_LETTERS = SURFACE_PARAMETERS + EQUATION_LETTERS };
 
 struct surface_reading {
     struct equation *parts[SURFACE_PARTS];

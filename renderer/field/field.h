@@ -162,7 +162,7 @@ struct field_code {
     struct code *code;
     char place[ERROR_PLACE_BYTES];            /* of the text in the document */
     uint64_t hash;                            /* of the text and of what it declares */
-    struct param_slot places[LIMIT_DECLARED]; /* of what it declares, in a block of `vec4s` */
+    struct param_slot places[SDF_PARAMS_MAX]; /* of what it declares, in a block of `vec4s` */
     int place_count, vec4s;
 };
 

@@ -80,7 +80,7 @@ static int add(struct builder *b, const char *text, const struct code_source *so
     struct param_slot places[SDF_PARAMS_MAX];
     added->vec4s = field_layout(source->params, 0, places);
     while (source->params[added->place_count].name) {
-        assert(added->place_count < LIMIT_DECLARED);
+        assert(added->place_count < SDF_PARAMS_MAX);
         added->places[added->place_count] = places[added->place_count];
         added->place_count++;
     }

@@ -28,7 +28,7 @@ void parametric_release(struct parametric_numbers *surface);
 struct parametric_source {
     cJSON *json; /* the texts lie in it; the caller deletes it */
     struct surface surface;
-    double letters[4];
+    double letters[EQUATION_LETTERS];
     int levels; /* of patches */
 };
 /* False: it has none, and there is nothing to delete. */

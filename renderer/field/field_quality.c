@@ -14,7 +14,7 @@
 #include "renderer/sdf/patches.h"
 
 /* A ray that passes a ball of the clip's size at TOLERANCE takes some 2,000 steps. */
-enum { RAYS = 400, STEPS = 2048, EVALUATIONS = 40000, LETTERS_MAX = 8 };
+enum { RAYS = 400, STEPS = 2048, EVALUATIONS = 40000 };
 /* Of field_work: a third of a second. */
 #define WORK 4e8
 /* Parts of the clip's extent. */
@@ -164,7 +164,7 @@ static void judge(const struct node *node, const struct field_call *call,
     struct equation *equation = equation_read(call->text, equation_letters, &errors);
     struct field *field = equation ? compile_alone(node) : NULL;
     struct equation_clip clip = {.ball = call->form.ball};
-    double letters[LETTERS_MAX];
+    double letters[EQUATION_LETTERS];
 
     for (int i = 0; equation_letters[i]; i++) {
         letters[i] = record_number(&node->params, equation_letters[i]);

@@ -80,7 +80,7 @@ const TEXTS = [
     ['deep nesting', nest(1000, '(', 'x', ')'), 65, /nested deeper than 64 levels \(equation_depth\)/],
     ['nothing varies', '1 = 2', 1, /holds everywhere or nowhere/],
     ['two relations', 'x < y < z', 7, /./],
-    ['an undefined letter', 'x + q = 1', 5, /"q" is no name/],
+    ['an undefined letter', 'x + j = 1', 5, /"j" is no name/],
 ];
 
 let daemon;

@@ -50,11 +50,11 @@ test('is typed letter by letter; what cannot be read is marked and leaves the pi
     const ball = await stillPixels(page);
 
     page.expected = /compile/;
-    await page.keyboard.type(' + q');
+    await page.keyboard.type(' + j');
     const mark = page.locator('.equation-mark mark');
     await mark.waitFor();
-    assert.equal(await mark.textContent(), 'q');
-    await page.getByText('"q" is no name').first().waitFor();
+    assert.equal(await mark.textContent(), 'j');
+    await page.getByText('"j" is no name').first().waitFor();
     assert.ok(difference(await stillPixels(page), ball) <= 1, 'the last good picture stays');
 
     await page.keyboard.press('Backspace');
@@ -83,8 +83,8 @@ test('is typeset while it is typed; the last that can be read stays dimmed, and 
     assert.equal(await set.getAttribute('data-old'), null);
 
     page.expected = /compile/;
-    await page.keyboard.type(' + q*sine(z) + max(z)', { delay: 20 });
-    await until(async () => String(await marked()) === 'q,sine,max', 'three marks');
+    await page.keyboard.type(' + j*sine(z) + max(z)', { delay: 20 });
+    await until(async () => String(await marked()) === 'j,sine,max', 'three marks');
     const faults = page.locator('.equation-faults li');
     assert.equal(await faults.count(), 3);
     assert.equal(await faults.nth(1).textContent(), '"sine" is no function; did you mean "sin"?');
@@ -107,13 +107,13 @@ test('is typeset while it is typed; the last that can be read stays dimmed, and 
 test('a letter is a number, and the picture follows it', async () => {
     await open();
     const nothing = await stillPixels(page);
-    await text().fill('x^2 + y^2 + z^2 = a');
+    await text().fill('x^2 + y^2 + z^2 = r^2');
     await page.keyboard.press('Enter');
     await pictureChanged(page, nothing, 'the ball');
     await settled(page);
     const ball = await stillPixels(page);
     assert.equal(await field(page, 'b').count(), 0, 'a letter that the equation lacks is not offered');
-    await field(page, 'a').fill('0.4');
+    await field(page, 'r').fill('0.4');
     await page.keyboard.press('Enter');
     await pictureChanged(page, ball, 'the smaller ball');
 });
@@ -161,8 +161,8 @@ test('of colours of a material follows what is typed, and says where it is wrong
     const byWidth = await stillPixels(page);
 
     page.expected = /compile/;
-    await page.keyboard.type(' + q');
-    await page.locator('.equation-mark mark').getByText('q', { exact: true }).waitFor();
+    await page.keyboard.type(' + j');
+    await page.locator('.equation-mark mark').getByText('j', { exact: true }).waitFor();
     assert.ok(difference(await stillPixels(page), byWidth) <= 1, 'the last good picture stays');
     await typed.fill('a*x');
     await page.keyboard.press('Enter');

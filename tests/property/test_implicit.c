@@ -710,6 +710,37 @@ static void letters_and_sizes_are_numbers(void **state)
     field_unref(more);
 }
 
+/* In a node's equation, and in a material's function. */
+static void every_letter_is_a_number(void **state)
+{
+    static const double p[3] = {0.3, 0.2, -0.1};
+    (void)state;
+
+    for (int i = 0; equation_letters[i]; i++) {
+        const char *letter = equation_letters[i];
+        char text[64], value[32], json[512];
+        struct error err = {0};
+        snprintf(text, sizeof text, "sin(%s*x) + y = exp(z)", letter);
+        snprintf(value, sizeof value, ",'%s':0.5", letter);
+        struct field *one = field_of(text, ""), *half = field_of(text, i > 0 ? value : "");
+        assert_true(one->structure_hash == half->structure_hash);
+        assert_true(i == 0 || fabs(field_distance(one, p) - field_distance(half, p)) > 1e-3);
+        field_unref(one);
+        field_unref(half);
+        snprintf(json, sizeof json,
+                 "{'format':'fieldcast/1','materials':{'m':{'shader':'map','properties':{"
+                 "'function':'%s*x'%s}}},'root':{'type':'sphere','material':'m'}}",
+                 letter, value);
+        struct scene *scene = json_text_valid_scene(json);
+        struct field *field = field_compile(scene, &err);
+        if (!field) {
+            fail_msg("%s: %s", letter, err.message);
+        }
+        field_unref(field);
+        scene_destroy(scene);
+    }
+}
+
 static void numbers_in_the_text_are_numbers(void **state)
 {
     static const char text[] = "sin(2*x) + 0.5*y^2 = exp(z) + 1";
@@ -804,6 +835,7 @@ int main(void)
         cmocka_unit_test(sheets_are_thin_and_whole),
         cmocka_unit_test(the_engine_agrees),
         cmocka_unit_test(letters_and_sizes_are_numbers),
+        cmocka_unit_test(every_letter_is_a_number),
         cmocka_unit_test(numbers_in_the_text_are_numbers),
         cmocka_unit_test(equations_share_code_of_the_same_form),
         cmocka_unit_test(the_bound_comes_near),

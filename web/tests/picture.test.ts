@@ -77,10 +77,10 @@ test("a row matters where its condition holds, and what that hangs on matters", 
         test: "!=",
     });
     expect(
-        ["", "x = tan(x)", "A*x", "2a*x = 1", "x^(1/a)"].map((shape) =>
+        ["", "x = tan(x)", "A*x", "2a*x = 1", "x^(1/a)", "a := 2; a*x"].map((shape) =>
             shown({ shape }).includes("a"),
         ),
-    ).toEqual([false, false, false, true, true]);
+    ).toEqual([false, false, false, true, true, false]);
 });
 
 test("conditions are told in words", () => {

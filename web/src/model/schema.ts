@@ -411,10 +411,16 @@ export function wordsIn(text: string): readonly string[] {
     return text.match(/[A-Za-z_]\w*/g) ?? [];
 }
 
+/* Without those that it defines: k := 2; ... */
+function freeWordsIn(text: string): readonly string[] {
+    const defined = (text.match(/[A-Za-z_]\w*(?=\s*:=)/g) ?? []) as readonly string[];
+    return wordsIn(text).filter((word) => !defined.includes(word));
+}
+
 function holds({ test, value }: Condition, given: Value): boolean {
     if (test === "~") {
         const texts = isObject(given) ? Object.values(given) : [given];
-        return wordsIn(texts.join("; ")).includes(String(value));
+        return freeWordsIn(texts.join("; ")).includes(String(value));
     }
     return (given === value) === (test === "=");
 }

@@ -6,7 +6,7 @@ import { useMemo } from "react";
 import { qualityOf } from "../../link/qualityRest.ts";
 import { paramAt } from "../../model/document.ts";
 import type { Json } from "../../model/json.ts";
-import { valueIn } from "../../model/schema.ts";
+import { valueIn, wordsIn } from "../../model/schema.ts";
 import {
     lettersOf,
     PARTS,
@@ -31,7 +31,6 @@ import { useEquation } from "./useEquation.ts";
 import "./fields.css";
 
 const NOTHING: Surface = { texts: { x: "", y: "", z: "" }, ranges: {} };
-const OWN_LETTERS = ["a", "b", "c", "d"];
 
 const Typeset = lazyPart(() => import("./Typeset.tsx"));
 const QualityBadge = lazyPart(() => import("./Quality.tsx"));
@@ -125,10 +124,13 @@ function PartField({ label, part, place, text, onInput, onCommit, onCancel }: Pa
 /* The texts with the values of the node's own letters. */
 function useProvable(place: string, texts: PartTexts): PartTexts {
     const numbers = useDocument(({ schema, document }) => {
-        const values = OWN_LETTERS.map((letter) => {
-            const own = document && paramAt(schema, document, place.replace(/[^/]+$/, letter));
-            return [letter, own ? valueIn(own.values, own.param) : 1] as const;
-        });
+        const values = new Map<string, unknown>();
+        for (const word of PARTS.flatMap((part) => wordsIn(texts[part]))) {
+            const own = document && paramAt(schema, document, place.replace(/[^/]+$/, word));
+            if (own?.param.when?.test === "~") {
+                values.set(word, valueIn(own.values, own.param));
+            }
+        }
         return JSON.stringify(Object.fromEntries(values));
     });
     const { x, y, z } = texts;

@@ -116,8 +116,8 @@ function useProof(place: string): Proof | null {
     const { rest } = useEditor();
     const body = useDocument(({ schema, document }) => {
         const values = (document && paramAt(schema, document, place)?.values) ?? {};
-        const { equation, parametric, clip, size, radius, a, b, c, d } = values;
-        return JSON.stringify({ equation, parametric, clip, size, radius, a, b, c, d });
+        const { mode: _mode, thickness: _thickness, ...asked } = values;
+        return JSON.stringify(asked);
     });
     const params = useMemo(() => JSON.parse(body) as JsonObject, [body]);
     const [proof, setProof] = useState<Proof | null>(null);
