@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the examples show is as it should be in nature.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 import test from "node:test";
 
 const read = (name) =>
@@ -41,4 +41,18 @@ test("trees of the foggy valley stand in their hills", () => {
     }
   }
   assert.ok(trees > 100, `${trees} trees`);
+});
+
+test("each of at least 24 surfaces by an equation names its source", () => {
+  const files = readdirSync(new URL("../../protocol/examples/", import.meta.url));
+  const surfaces = files.flatMap((file) => /^(surface-.*)\.json$/.exec(file)?.[1] ?? []).sort();
+  const readme = readFileSync(new URL("../../protocol/README.md", import.meta.url), "utf8");
+  const rows = [...readme.matchAll(/^\| `(surface-[^`]*)` \| .*[A-Z]\S* ?[A-Z].* \|$/gm)];
+
+  assert.ok(surfaces.length >= 24);
+  assert.deepEqual(rows.map((row) => row[1]), surfaces);
+  for (const surface of surfaces) {
+    const types = JSON.stringify(read(surface)).match(/"type":"(implicit|parametric)"/g);
+    assert.ok(types, `${surface} has no equation`);
+  }
 });

@@ -3,6 +3,7 @@
 // The oracle evaluates the parametric texts themselves in double precision.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
+import fs from 'node:fs';
 import { test } from 'node:test';
 
 const program = process.env.FIELDCAST ?? 'build/release/fieldcast';
@@ -243,6 +244,25 @@ for (const [name, texts, wanted] of REFUSED) {
         assert.match(stderr, wanted);
     });
 }
+
+// Of the processor, with a start of the program each: it is refused before anything is computed.
+test('a refusal takes no longer than the simplest answer', () => {
+    const quick = ['a curve', 'a point', 'helicoid', 'Dini', 'a root', 'a denominator of 0', 'degree 32'];
+    const rows = REFUSED.filter(([name]) => quick.includes(name)).map(([, texts]) => texts);
+    const cost = (texts) => {
+        const ticks = () => fs.readFileSync('/proc/self/stat', 'utf8').split(') ').pop().split(' ').slice(13, 15);
+        const before = ticks();
+        spawnSync(program, ['implicitize', '--', ...texts]);
+        return ticks().reduce((sum, now, i) => sum + Number(now) - Number(before[i]), 0);
+    };
+    const least = (texts) => Math.min(cost(texts), cost(texts), cost(texts));
+    const answer = least(['s', 't', 's*t']);
+    assert.equal(rows.length, quick.length);
+    for (const texts of rows) {
+        const ticks = least(texts);
+        assert.ok(ticks <= 3 * answer, `${texts}: ${ticks} ticks, an answer ${answer}`);
+    }
+});
 
 test('three expressions are taken, no more and no fewer', () => {
     const run = (...args) => spawnSync(program, ['implicitize', ...args], { encoding: 'utf8' });
