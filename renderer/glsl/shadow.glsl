@@ -63,6 +63,10 @@ vec2 turning_point(vec2 a, vec2 b, vec2 c, vec2 d)
     return vec2(x, closing > 0.0 && x < b.x && x > c.x ? b.y + fall * (x - b.x) : FAR);
 }
 
+/* An estimate of the distance that is so much more than the bound is not believed: it counts as so
+ * much, and steps do not rely on it. Functions may have walls that their slope tells nothing of. */
+#define BELIEVED 5.0
+
 /* The part seen of a light's disc follows from the least ratio of distance to way (Quilez: Soft
  * shadows in raymarched SDFs, 2010): from 1 / k on, all of it. It is dark within the hard shadow,
  * so that nothing thin lets light through. Between two samples the ratio may be less than at both,
@@ -80,7 +84,8 @@ bool soft_step(inout ShadowRay s, float d, float known)
     if (!s.refined) {
         /* Finer than the disc where it matters; things much smaller do not. */
         float disc = s.x / s.k, coarse = 0.3 + 30.0 * s.footprint / (s.x + 30.0 * s.footprint);
-        s.ahead = max(d * clamp(0.25 * d / disc, 0.5, 1.0), max(0.5 * s.footprint, coarse * disc));
+        float leap = known < BELIEVED * d ? coarse * disc : 0.0;
+        s.ahead = max(d * clamp(0.25 * d / disc, 0.5, 1.0), max(0.5 * s.footprint, leap));
         s.a = s.b;
         s.b = s.c;
         s.c = now;
@@ -146,7 +151,7 @@ float visible(Sight sight, int kind, int steps)
             i--;
             continue;
         }
-        d = field_estimates ? max(d, bound) : d;
+        d = field_estimates ? clamp(d, bound, BELIEVED * bound) : d;
         bound = field_estimates ? bound : d;
         field_estimates = false;
         if (kind == SIGHT_OPEN) {

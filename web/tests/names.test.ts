@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Names of the schema in the words of the page. */
 import { expect, test } from "vitest";
-import { drawnBy, outputTitle, placeTitle, typeTitle, words } from "../src/ui/names.ts";
+import { readSchema } from "../src/model/schema.ts";
+import { drawnBy, outputTitle, paramTitle, placeTitle, typeTitle, words } from "../src/ui/names.ts";
 
 test("names are words, spelled as the page's texts are", () => {
     expect(words("base_color")).toBe("base colour");
@@ -10,6 +11,19 @@ test("names are words, spelled as the page's texts are", () => {
     expect(typeTitle("floor_color")).toBe("Floor colour");
     expect(outputTitle("color")).toBe("Colour");
     expect(outputTitle("node_id")).toBe("Node id");
+});
+
+test("a letter of an equation is called as it is, another k by what it means", () => {
+    const { environment } = readSchema({
+        nodes: [],
+        environment: [
+            { name: "k", type: "float" },
+            { name: "k", type: "float", when: "equation~k" },
+        ],
+        outputs: [],
+        limits: [],
+    });
+    expect(environment.map(paramTitle)).toEqual(["smoothness", "k"]);
 });
 
 test("what draws is the device, but for the engine, which needs none", () => {

@@ -28,7 +28,7 @@ import { TextField } from "./fields/Text.tsx";
 import type { FieldProps } from "./fields/types.ts";
 import { VectorField } from "./fields/Vector.tsx";
 import { lazyPart } from "./lazy.tsx";
-import { paramTitle, shortTitle, words } from "./names.ts";
+import { isLetter, paramTitle, shortTitle, words } from "./names.ts";
 import { useDocument, useEditor, useView } from "./state.ts";
 import { sentence, t } from "./texts.ts";
 import "./inspector/inspector.css";
@@ -171,7 +171,11 @@ const FormRow = memo(function FormRow({ param, place, owner }: RowProps) {
             data-changed={changed || undefined}
             data-shake={problem ? "" : undefined}
         >
-            <span className="form-label" title={param.doc}>
+            <span
+                className="form-label"
+                data-letter={isLetter(param) || undefined}
+                title={param.doc}
+            >
                 {shortTitle(param)}
             </span>
             <div className="form-field">

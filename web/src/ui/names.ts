@@ -35,7 +35,13 @@ export function words(name: string): string {
         .replace(/\bcolor(\d*)\b/, (_, number: string) => `colour ${number}`.trimEnd());
 }
 
+/* Of an equation. */
+export const isLetter = (param: Param): boolean => param.when?.test === "~";
+
 export function paramTitle(param: Param): string {
+    if (isLetter(param)) {
+        return param.name;
+    }
     const letter = param.name.length === 1 && param.type === "float" && param.unit === null;
     return (letter ? letters[param.name] : undefined) ?? spoken[param.name] ?? words(param.name);
 }

@@ -20,6 +20,7 @@ import {
     withNumbers,
 } from "../../model/surface.ts";
 import { lazyPart } from "../lazy.tsx";
+import { isLetter } from "../names.ts";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { Button } from "../widgets/Button.tsx";
 import { Range } from "./Parametric.tsx";
@@ -127,7 +128,7 @@ function useProvable(place: string, texts: PartTexts): PartTexts {
         const values = new Map<string, unknown>();
         for (const word of PARTS.flatMap((part) => wordsIn(texts[part]))) {
             const own = document && paramAt(schema, document, place.replace(/[^/]+$/, word));
-            if (own?.param.when?.test === "~") {
+            if (own && isLetter(own.param)) {
                 values.set(word, valueIn(own.values, own.param));
             }
         }
