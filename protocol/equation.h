@@ -130,12 +130,13 @@ struct equation_definitions {
     int count;
 };
 
+enum { EQUATION_ERRORS = 8, EQUATION_MESSAGE_BYTES = 160 };
+
 /* A place in the text, in code points from 1. */
 struct equation_error {
     int line, column;
-    char message[160];
+    char message[EQUATION_MESSAGE_BYTES];
 };
-enum { EQUATION_ERRORS = 8 };
 struct equation_errors {
     struct equation_error list[EQUATION_ERRORS];
     int count; /* of those in the list */

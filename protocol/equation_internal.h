@@ -7,6 +7,14 @@
 
 extern const char *const equation_axes[]; /* x, y and z; NULL at the end */
 
+/* Where a name is in a list that ends with NULL; -1: nowhere. */
+int equation_name_in(const char *const *names, const char *name);
+/* Of functions, then composites; -1: it is none. */
+int equation_function_of(const char *name, int *out_arguments);
+/* What is said of a name that is none, with what may be meant. `plain`: x, y and z are none. */
+void equation_unknown(const char *const *letters, bool plain, const char *name, bool called,
+                      char out[EQUATION_MESSAGE_BYTES]);
+
 /* A text that grows. */
 struct equation_text {
     char *text;

@@ -7,9 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "equation_internal.h"
+#include "mathml.h"
 
-#define MINUS "\u2212"
 #define TIMES "\u2062" /* invisible */
 #define DOT "\u22c5"
 #define APPLIES "\u2061" /* a function to what follows; invisible */
@@ -22,10 +21,9 @@ enum level { SUM, SIGNED, PRODUCT, POWER, ATOM };
 
 struct typesetter {
     const struct equation_mathml *m;
-    struct equation_text out;
+    struct mathml to;
     int letter_count;
     int left;   /* nodes that are still shown */
-    int depth;  /* of elements within a row; 0: a line may be broken here */
     bool small; /* within an exponent */
 };
 
@@ -48,168 +46,6 @@ struct parts {
 static const struct equation_node *node_at(const struct typesetter *t, uint16_t index)
 {
     return &t->m->equation->nodes[index];
-}
-
-/* --- elements --- */
-
-static void put(struct typesetter *t, const char *text)
-{
-    equation_put(&t->out, text);
-}
-
-static void open(struct typesetter *t, const char *tag)
-{
-    put(t, "<");
-    put(t, tag);
-    put(t, ">");
-    t->depth++;
-}
-
-static void close(struct typesetter *t, const char *tag)
-{
-    put(t, "</");
-    put(t, tag);
-    put(t, ">");
-    t->depth--;
-}
-
-static void put_element(struct typesetter *t, const char *tag, const char *text)
-{
-    open(t, tag);
-    put(t, text);
-    close(t, tag);
-}
-
-static void put_fence(struct typesetter *t, const char *form, const char *sign, bool stretches)
-{
-    put(t, "<mo form=\"");
-    put(t, form);
-    put(t, stretches ? "\" stretchy=\"true\">" : "\" stretchy=\"false\">");
-    put(t, sign);
-    put(t, "</mo>");
-}
-
-/* A sign between two operands, even where a new line begins with it. */
-static void put_infix(struct typesetter *t, const char *sign)
-{
-    put(t, "<mo form=\"infix\">");
-    put(t, sign);
-    put(t, "</mo>");
-}
-
-static void put_minus(struct typesetter *t)
-{
-    put(t, "<mo form=\"prefix\">" MINUS "</mo>");
-}
-
-static void put_thin_space(struct typesetter *t)
-{
-    put(t, "<mspace width=\"" THIN "\"/>");
-}
-
-static void break_line(struct typesetter *t)
-{
-    if (t->depth == 0) {
-        put(t, "</mrow><mrow>");
-    }
-}
-
-/* --- numbers and names --- */
-
-static void put_whole(struct typesetter *t, double value)
-{
-    char text[32];
-
-    equation_number_text(fabs(value), text);
-    if (value < 0) {
-        open(t, "mrow");
-        put_minus(t);
-    }
-    put_element(t, "mn", text);
-    if (value < 0) {
-        close(t, "mrow");
-    }
-}
-
-static const char *exponent_in(const char *number)
-{
-    return strchr(number, 'e');
-}
-
-/* 1.5e+20 is 1.5 times 10 to the power of 20. */
-static void put_number(struct typesetter *t, double value)
-{
-    char text[32];
-
-    equation_number_text(value, text);
-    char *exponent = strchr(text, 'e');
-    if (!exponent) {
-        put_element(t, "mn", text);
-        return;
-    }
-    *exponent = '\0';
-    if (strcmp(text, "1") != 0) {
-        put_element(t, "mn", text);
-        put_infix(t, "\u00d7");
-    }
-    open(t, "msup");
-    put_element(t, "mn", "10");
-    put_whole(t, strtod(exponent + 1, NULL));
-    close(t, "msup");
-}
-
-/* The small letters of the Greek alphabet, from U+03B1 on; the final sigma has no name. */
-static const char *const greek[] = {
-    "alpha", "beta",   "gamma",   "delta", "epsilon", "zeta",    "eta",  "theta", "iota",
-    "kappa", "lambda", "mu",      "nu",    "xi",      "omicron", "pi",   "rho",   "",
-    "sigma", "tau",    "upsilon", "phi",   "chi",     "psi",     "omega"};
-
-/* Their number; -1: it is none of them. */
-static int greek_of(const char *name)
-{
-    for (int i = 0; i < (int)(sizeof greek / sizeof greek[0]); i++) {
-        if (*name && strcmp(greek[i], name) == 0) {
-            return i;
-        }
-    }
-    return -1;
-}
-
-static void put_letters(struct typesetter *t, const char *name)
-{
-    const unsigned code = 0x3b1 + (unsigned)greek_of(name);
-    const char text[] = {(char)(0xc0 | code >> 6), (char)(0x80 | (code & 0x3f)), '\0'};
-
-    if (greek_of(name) >= 0) {
-        put_element(t, "mi", text);
-    } else {
-        put_element(t, isdigit((unsigned char)*name) ? "mn" : "mi", name);
-    }
-}
-
-/* Where the index of a name begins, as 1 in x1 and x_1; its length where it has none. */
-static size_t index_in(const char *name)
-{
-    const size_t letters = strcspn(name, "_0123456789");
-    const char *rest = name + letters + (name[letters] == '_');
-
-    return letters > 0 && *rest && !strchr(rest, '_') ? letters : strlen(name);
-}
-
-static void put_name(struct typesetter *t, const char *name)
-{
-    char stem[EQUATION_NAME_BYTES];
-    const size_t at = index_in(name);
-
-    snprintf(stem, sizeof stem, "%.*s", (int)at, name);
-    if (!name[at]) {
-        put_letters(t, name);
-        return;
-    }
-    open(t, "msub");
-    put_letters(t, stem);
-    put_letters(t, name + at + (name[at] == '_'));
-    close(t, "msub");
 }
 
 static const char *name_of(const struct typesetter *t, const struct equation_node *node)
@@ -244,8 +80,7 @@ static bool is_function(const struct typesetter *t, const struct equation_node *
 /* A name of several letters, such as "far". */
 static bool is_word(const struct typesetter *t, const struct equation_node *node)
 {
-    return node->op == EQUATION_LETTER && index_in(name_of(t, node)) > 1 &&
-           greek_of(name_of(t, node)) < 0;
+    return node->op == EQUATION_LETTER && mathml_is_word(name_of(t, node));
 }
 
 static bool is_sum(const struct equation_node *node)
@@ -267,7 +102,7 @@ static bool is_large_number(const struct equation_node *node)
     char text[32];
 
     equation_number_text(node->value, text);
-    return node->op == EQUATION_NUMBER && exponent_in(text);
+    return node->op == EQUATION_NUMBER && strchr(text, 'e');
 }
 
 static enum level level_of(const struct typesetter *t, const struct equation_node *node)
@@ -391,19 +226,19 @@ static void put_terms(struct typesetter *t, uint16_t index)
     for (int i = 0; i < terms.count; i++) {
         const struct part *term = &terms.list[i];
         if (i > 0) {
-            break_line(t);
-            put_infix(t, term->minus ? MINUS : "+");
+            mathml_break(&t->to);
+            mathml_infix(&t->to, term->minus ? MATHML_MINUS : "+");
         }
         if (i > 0 && t->left <= 0) {
-            put(t, ELLIPSIS);
+            mathml_put(&t->to, ELLIPSIS);
             return;
         }
         put_node(t, term->node, i > 0 ? PRODUCT : SIGNED);
     }
     if (terms.more) {
-        break_line(t);
-        put_infix(t, "+");
-        put(t, ELLIPSIS);
+        mathml_break(&t->to);
+        mathml_infix(&t->to, "+");
+        mathml_put(&t->to, ELLIPSIS);
     }
 }
 
@@ -458,11 +293,11 @@ static void put_times(struct typesetter *t, enum look before, enum look after)
                        after == FUNCTION || after == WORD || (before == BARS && after == BARS);
 
     if (after == DIGITS || after == FRACTION) {
-        put_infix(t, DOT);
+        mathml_infix(&t->to, DOT);
     } else {
-        put(t, "<mo form=\"infix\" lspace=\"0\" rspace=\"");
-        put(t, apart ? THIN : "0");
-        put(t, "\">" TIMES "</mo>");
+        mathml_put(&t->to, "<mo form=\"infix\" lspace=\"0\" rspace=\"");
+        mathml_put(&t->to, apart ? THIN : "0");
+        mathml_put(&t->to, "\">" TIMES "</mo>");
     }
 }
 
@@ -475,13 +310,13 @@ static void put_factors(struct typesetter *t, struct part product)
         const struct part *factor = &factors.list[i];
         const enum look look = look_of(t, *factor);
         if (i > 0 && look == PARENTHESES) {
-            break_line(t);
+            mathml_break(&t->to);
         }
         if (i > 0) {
             put_times(t, look_of(t, factors.list[i - 1]), look);
         }
         if (i > 0 && t->left <= -SLACK) {
-            put(t, ELLIPSIS);
+            mathml_put(&t->to, ELLIPSIS);
             return;
         }
         const bool is_last = i + 1 == factors.count;
@@ -489,24 +324,24 @@ static void put_factors(struct typesetter *t, struct part product)
     }
     if (factors.more) {
         put_times(t, LETTER, LETTER);
-        put(t, ELLIPSIS);
+        mathml_put(&t->to, ELLIPSIS);
     }
 }
 
 static void put_fraction(struct typesetter *t, const struct equation_node *node, bool told)
 {
-    open(t, "mfrac");
-    open(t, "mrow");
+    mathml_open(&t->to, "mfrac");
+    mathml_open(&t->to, "mrow");
     if (told) {
         put_signed(t, node->args[0]);
     } else {
         put_node(t, node->args[0], SUM);
     }
-    close(t, "mrow");
-    open(t, "mrow");
+    mathml_close(&t->to, "mrow");
+    mathml_open(&t->to, "mrow");
     put_node(t, node->args[1], SUM);
-    close(t, "mrow");
-    close(t, "mfrac");
+    mathml_close(&t->to, "mrow");
+    mathml_close(&t->to, "mfrac");
 }
 
 /* x/2, by a stroke, where a fraction would be too small. */
@@ -523,7 +358,7 @@ static bool put_stroke(struct typesetter *t, const struct equation_node *node, b
         put_node(t, node->args[0], PRODUCT);
     }
     if (fits) {
-        put(t, "<mo form=\"infix\" lspace=\"0\" rspace=\"0\">/</mo>");
+        mathml_put(&t->to, "<mo form=\"infix\" lspace=\"0\" rspace=\"0\">/</mo>");
         put_node(t, node->args[1], POWER);
     }
     return fits;
@@ -547,17 +382,17 @@ static void put_exponent(struct typesetter *t, uint16_t index)
 {
     const bool outside = t->small;
 
-    open(t, "mrow");
+    mathml_open(&t->to, "mrow");
     t->small = true;
     put_node(t, index, SUM);
     t->small = outside;
-    close(t, "mrow");
+    mathml_close(&t->to, "mrow");
 }
 
 static void put_raised_by(struct typesetter *t, const struct equation_node *node)
 {
     if (node->op == EQUATION_WHOLE) {
-        put_whole(t, node->value);
+        mathml_whole(&t->to, node->value);
     } else {
         put_exponent(t, node->args[1]);
     }
@@ -566,16 +401,16 @@ static void put_raised_by(struct typesetter *t, const struct equation_node *node
 /* As a printer sets them: at the height that the closing sign has, whatever is in between. */
 static void put_power_of_parentheses(struct typesetter *t, const struct equation_node *node)
 {
-    open(t, "mrow");
-    put_fence(t, "prefix", "(", false);
-    open(t, "mrow");
+    mathml_open(&t->to, "mrow");
+    mathml_fence(&t->to, "prefix", "(", false);
+    mathml_open(&t->to, "mrow");
     put_bare(t, node->args[0]);
-    close(t, "mrow");
-    open(t, "msup");
-    put_fence(t, "postfix", ")", false);
+    mathml_close(&t->to, "mrow");
+    mathml_open(&t->to, "msup");
+    mathml_fence(&t->to, "postfix", ")", false);
     put_raised_by(t, node);
-    close(t, "msup");
-    close(t, "mrow");
+    mathml_close(&t->to, "msup");
+    mathml_close(&t->to, "mrow");
 }
 
 static void put_power(struct typesetter *t, const struct equation_node *node)
@@ -586,12 +421,12 @@ static void put_power(struct typesetter *t, const struct equation_node *node)
         put_power_of_parentheses(t, node);
         return;
     }
-    open(t, "msup");
-    open(t, "mrow");
+    mathml_open(&t->to, "msup");
+    mathml_open(&t->to, "mrow");
     put_node(t, node->args[0], ATOM);
-    close(t, "mrow");
+    mathml_close(&t->to, "mrow");
     put_raised_by(t, node);
-    close(t, "msup");
+    mathml_close(&t->to, "msup");
 }
 
 /* sin^2 x; false: it is written otherwise. */
@@ -618,16 +453,16 @@ static void put_arguments(struct typesetter *t, const struct equation_node *node
     for (int i = 0; i < equation_arguments(node); i++) {
         tall = tall || is_tall(t, node_at(t, node->args[i]));
     }
-    open(t, "mrow");
-    put_fence(t, "prefix", left, tall);
+    mathml_open(&t->to, "mrow");
+    mathml_fence(&t->to, "prefix", left, tall);
     for (int i = 0; i < equation_arguments(node); i++) {
-        put(t, i > 0 ? "<mo separator=\"true\">,</mo>" : "");
-        open(t, "mrow");
+        mathml_put(&t->to, i > 0 ? "<mo separator=\"true\">,</mo>" : "");
+        mathml_open(&t->to, "mrow");
         put_node(t, node->args[i], SUM);
-        close(t, "mrow");
+        mathml_close(&t->to, "mrow");
     }
-    put_fence(t, "postfix", right, tall);
-    close(t, "mrow");
+    mathml_fence(&t->to, "postfix", right, tall);
+    mathml_close(&t->to, "mrow");
 }
 
 static void put_function_name(struct typesetter *t, const struct equation_function *function,
@@ -636,14 +471,14 @@ static void put_function_name(struct typesetter *t, const struct equation_functi
     const char *name = function->sign ? function->sign : function->name;
 
     if (exponent) {
-        open(t, "msup");
+        mathml_open(&t->to, "msup");
     }
-    put_element(t, "mi", name);
+    mathml_element(&t->to, "mi", name);
     if (exponent) {
-        put_element(t, "mn", exponent);
-        close(t, "msup");
+        mathml_element(&t->to, "mn", exponent);
+        mathml_close(&t->to, "msup");
     }
-    put(t, "<mo>" APPLIES "</mo>");
+    mathml_put(&t->to, "<mo>" APPLIES "</mo>");
 }
 
 static void put_call(struct typesetter *t, const struct equation_node *node, const char *exponent,
@@ -654,7 +489,7 @@ static void put_call(struct typesetter *t, const struct equation_node *node, con
 
     put_function_name(t, called(node), exponent);
     if (bare) {
-        put_thin_space(t);
+        mathml_thin_space(&t->to);
         put_node(t, node->args[0], PRODUCT);
     } else {
         put_arguments(t, node, "(", ")");
@@ -665,14 +500,14 @@ static void put_root(struct typesetter *t, const struct equation_node *node)
 {
     const char *degree = called(node)->sign;
 
-    open(t, degree ? "mroot" : "msqrt");
-    open(t, "mrow");
+    mathml_open(&t->to, degree ? "mroot" : "msqrt");
+    mathml_open(&t->to, "mrow");
     put_node(t, node->args[0], SUM);
-    close(t, "mrow");
+    mathml_close(&t->to, "mrow");
     if (degree) {
-        put_element(t, "mn", degree);
+        mathml_element(&t->to, "mn", degree);
     }
-    close(t, degree ? "mroot" : "msqrt");
+    mathml_close(&t->to, degree ? "mroot" : "msqrt");
 }
 
 static void put_any_call(struct typesetter *t, const struct equation_node *node)
@@ -687,10 +522,10 @@ static void put_any_call(struct typesetter *t, const struct equation_node *node)
         put_root(t, node);
         break;
     case EQUATION_RAISED:
-        open(t, "msup");
-        put_element(t, "mi", function->sign);
+        mathml_open(&t->to, "msup");
+        mathml_element(&t->to, "mi", function->sign);
         put_exponent(t, node->args[0]);
-        close(t, "msup");
+        mathml_close(&t->to, "msup");
         break;
     case EQUATION_FENCED:
         put_arguments(t, node, function->sign, function->close);
@@ -730,11 +565,11 @@ static void put_operation(struct typesetter *t, uint16_t index)
 static void put_leaf(struct typesetter *t, const struct equation_node *node)
 {
     if (node->op == EQUATION_NUMBER) {
-        put_number(t, node->value);
+        mathml_number(&t->to, node->value);
     } else if (node->op == EQUATION_CONSTANT) {
-        put_element(t, "mi", equation_constants[node->which].sign);
+        mathml_element(&t->to, "mi", equation_constants[node->which].sign);
     } else {
-        put_name(t, name_of(t, node));
+        mathml_name(&t->to, name_of(t, node));
     }
 }
 
@@ -746,9 +581,9 @@ static void put_bare(struct typesetter *t, uint16_t index)
     if (equation_arguments(node) == 0) {
         put_leaf(t, node);
     } else if (t->left <= -SLACK) {
-        put(t, ELLIPSIS);
+        mathml_put(&t->to, ELLIPSIS);
     } else if (!is_sum(node) && is_negative(t, node)) {
-        put_minus(t);
+        mathml_minus(&t->to);
         put_signed(t, index);
     } else {
         put_operation(t, index);
@@ -764,13 +599,13 @@ static void put_node(struct typesetter *t, uint16_t index, enum level least)
         return;
     }
     const bool tall = is_tall(t, node);
-    open(t, "mrow");
-    put_fence(t, "prefix", "(", tall);
-    open(t, "mrow");
+    mathml_open(&t->to, "mrow");
+    mathml_fence(&t->to, "prefix", "(", tall);
+    mathml_open(&t->to, "mrow");
     put_bare(t, index);
-    close(t, "mrow");
-    put_fence(t, "postfix", ")", tall);
-    close(t, "mrow");
+    mathml_close(&t->to, "mrow");
+    mathml_fence(&t->to, "postfix", ")", tall);
+    mathml_close(&t->to, "mrow");
 }
 
 /* --- lines --- */
@@ -781,13 +616,14 @@ static void begin(struct typesetter *t, const struct equation_mathml *m)
     while (m->letters[t->letter_count]) {
         t->letter_count++;
     }
-    put(t, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" displaystyle=\"true\"><mrow>");
+    mathml_put(&t->to,
+               "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" displaystyle=\"true\"><mrow>");
 }
 
 static char *end(struct typesetter *t)
 {
-    put(t, "</mrow></math>");
-    return t->out.text;
+    mathml_put(&t->to, "</mrow></math>");
+    return t->to.out.text;
 }
 
 char *equation_mathml_definition(const struct equation_mathml *m, int which)
@@ -795,8 +631,8 @@ char *equation_mathml_definition(const struct equation_mathml *m, int which)
     struct typesetter t;
 
     begin(&t, m);
-    put_name(&t, m->definitions->list[which].name);
-    put_infix(&t, "\u2254");
+    mathml_name(&t.to, m->definitions->list[which].name);
+    mathml_infix(&t.to, "\u2254");
     put_node(&t, m->definitions->list[which].node, SUM);
     return end(&t);
 }
@@ -817,8 +653,8 @@ char *equation_mathml(const struct equation_mathml *m)
 
     begin(&t, m);
     put_node(&t, equation->left, SUM);
-    break_line(&t);
-    put_infix(&t, equation_relations[equation->relation].typeset);
+    mathml_break(&t.to);
+    mathml_infix(&t.to, equation_relations[equation->relation].typeset);
     put_node(&t, equation->right, SUM);
     return end(&t);
 }

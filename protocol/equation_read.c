@@ -10,7 +10,6 @@
 
 #include "equation_internal.h"
 #include "memory.h"
-#include "suggest.h"
 #include "utf8.h"
 
 struct reader {
@@ -172,30 +171,6 @@ static uint16_t add_power(struct reader *r, uint16_t base, uint16_t exponent, co
 
 /* --- names --- */
 
-static int find(const char *const *names, const char *name)
-{
-    for (int i = 0; names[i]; i++) {
-        if (strcmp(names[i], name) == 0) {
-            return i;
-        }
-    }
-    return -1;
-}
-
-static int function_of(const char *name, int *out_arguments)
-{
-    for (int i = 0; i < EQUATION_FUNCTIONS + EQUATION_COMPOSITES; i++) {
-        const struct equation_function *row = i < EQUATION_FUNCTIONS
-                                                  ? &equation_functions[i]
-                                                  : &equation_composites[i - EQUATION_FUNCTIONS];
-        if (strcmp(row->name, name) == 0) {
-            *out_arguments = row->arguments;
-            return i;
-        }
-    }
-    return -1;
-}
-
 static uint16_t compose(struct reader *r, enum equation_composite which, const uint16_t *in,
                         const char *at)
 {
@@ -233,104 +208,12 @@ static size_t read_name(struct reader *r, char out[EQUATION_NAME_BYTES])
     return length;
 }
 
-/* "; write x*y" for xy. */
-static bool product_of(struct reader *r, const char *name, char out[2 * EQUATION_NAME_BYTES])
-{
-    size_t used = 0;
-
-    for (const char *c = name; *c && used + 3 < 2 * EQUATION_NAME_BYTES; c++) {
-        const char one[] = {*c, '\0'};
-        if (find(equation_axes, one) < 0 && find(r->letters, one) < 0) {
-            return false;
-        }
-        used += (size_t)snprintf(out + used, 2 * EQUATION_NAME_BYTES - used, "%s%c",
-                                 used ? "*" : "", *c);
-    }
-    return name[0] && name[1];
-}
-
-/* Other names of functions. */
-static const struct {
-    const char *name, *ours;
-} aliases[] = {
-    {"ln", "log"}, {"arcsin", "asin"}, {"arccos", "acos"}, {"arctan", "atan"}, {"sgn", "sign"},
-};
-
-static bool is_known(struct reader *r, const char *name)
-{
-    int arguments;
-    bool known = (!r->plain && find(equation_axes, name) >= 0) || find(r->letters, name) >= 0 ||
-                 function_of(name, &arguments) >= 0;
-
-    for (int i = 0; equation_constants[i].name; i++) {
-        known = known || strcmp(equation_constants[i].name, name) == 0;
-    }
-    return known;
-}
-
-/* What is surely meant: PI, X, ln. NULL: nothing. */
-static const char *meant_by(struct reader *r, const char *name, char lower[EQUATION_NAME_BYTES])
-{
-    for (size_t i = 0; i < sizeof aliases / sizeof aliases[0]; i++) {
-        if (strcmp(aliases[i].name, name) == 0) {
-            return aliases[i].ours;
-        }
-    }
-    for (size_t i = 0; i < EQUATION_NAME_BYTES; i++) {
-        lower[i] = (char)tolower((unsigned char)name[i]);
-        if (!name[i]) {
-            break;
-        }
-    }
-    return is_known(r, lower) ? lower : NULL;
-}
-
-static void suggest(const char *name, bool called, struct suggestion *out)
-{
-    *out = (struct suggestion){.text = name};
-    for (int i = 0; i < EQUATION_FUNCTIONS; i++) {
-        suggest_consider(out, equation_functions[i].name);
-    }
-    for (int i = 0; i < EQUATION_COMPOSITES; i++) {
-        suggest_consider(out, equation_composites[i].name);
-    }
-    for (int i = 0; !called && equation_constants[i].name; i++) {
-        suggest_consider(out, equation_constants[i].name);
-    }
-}
-
-/* Which letters there are, and how another is defined. */
-static const char *hint_letters(struct reader *r, const char *name, char *out, size_t size)
-{
-    size_t used = (size_t)snprintf(out, size, "; the letters are ");
-
-    for (int i = 0; r->letters[i] && used < size; i++) {
-        used += (size_t)snprintf(out + used, size - used, "%s%s", i > 0 ? ", " : "", r->letters[i]);
-    }
-    if (used < size) {
-        snprintf(out + used, size - used, "; or define it before: %s := 1", name);
-    }
-    return out;
-}
-
 static void note_unknown(struct reader *r, const char *name, bool called, const char *at)
 {
-    char product[2 * EQUATION_NAME_BYTES], hint[128], lower[EQUATION_NAME_BYTES];
-    const char *meant = meant_by(r, name, lower);
-    struct suggestion near = {.text = name, .best = meant};
+    char message[EQUATION_MESSAGE_BYTES];
 
-    if (!called && product_of(r, name, product)) {
-        note(r, at, "\"%s\" is no name; write %s", name, product);
-        return;
-    }
-    if (!meant) {
-        suggest(name, called, &near);
-    }
-    suggest_hint(&near, hint, sizeof hint);
-    if (!near.best && !called && find(equation_axes, name) < 0) {
-        hint_letters(r, name, hint, sizeof hint);
-    }
-    note(r, at, "\"%s\" is no %s%s", name, called ? "function" : "name", hint);
+    equation_unknown(r->letters, r->plain, name, called, message);
+    note(r, at, "%s", message);
 }
 
 static uint16_t value_of(struct reader *r, const char *name, const char *at)
@@ -342,7 +225,8 @@ static uint16_t value_of(struct reader *r, const char *name, const char *at)
             return r->definitions.list[i].node;
         }
     }
-    const int axis = r->plain ? -1 : find(equation_axes, name), letter = find(r->letters, name);
+    const int axis = r->plain ? -1 : equation_name_in(equation_axes, name),
+              letter = equation_name_in(r->letters, name);
     if (axis >= 0 || letter >= 0) {
         return add(r, (struct equation_node){.op = axis >= 0 ? EQUATION_AXIS : EQUATION_LETTER,
                                              .which = (uint8_t)(axis >= 0 ? axis : letter)});
@@ -352,7 +236,7 @@ static uint16_t value_of(struct reader *r, const char *name, const char *at)
             return add(r, (struct equation_node){.op = EQUATION_CONSTANT, .which = (uint8_t)i});
         }
     }
-    if (function_of(name, &arguments) >= 0) {
+    if (equation_function_of(name, &arguments) >= 0) {
         note(r, at, "\"%s\" is a function; write %s(%s)", name, name,
              arguments == 1   ? "..."
              : arguments == 2 ? "..., ..."
@@ -387,7 +271,7 @@ static uint16_t read_call(struct reader *r, const char *name, const char *at)
 {
     uint16_t in[3] = {0};
     int wanted = 0, given = 0;
-    const int function = function_of(name, &wanted);
+    const int function = equation_function_of(name, &wanted);
     const char *opener = r->at - 1;
     const bool in_bars = r->in_bars;
 
@@ -441,8 +325,10 @@ static uint16_t read_named(struct reader *r)
         return 0;
     }
     int arguments;
-    const bool calls = *r->at == '(' || (function_of(name, &arguments) >= 0 && next_is(r, "("));
-    const bool is_value = find(equation_axes, name) >= 0 || find(r->letters, name) >= 0;
+    const bool calls =
+        *r->at == '(' || (equation_function_of(name, &arguments) >= 0 && next_is(r, "("));
+    const bool is_value =
+        equation_name_in(equation_axes, name) >= 0 || equation_name_in(r->letters, name) >= 0;
     if (calls && !is_value) {
         for (int i = 0; i < r->definitions.count; i++) {
             if (strcmp(r->definitions.list[i].name, name) == 0) {
@@ -649,7 +535,8 @@ static bool read_definition(struct reader *r)
         r->at = begin;
         return false;
     }
-    if (find(equation_axes, next.name) >= 0 || function_of(next.name, &arguments) >= 0) {
+    if (equation_name_in(equation_axes, next.name) >= 0 ||
+        equation_function_of(next.name, &arguments) >= 0) {
         note(r, at, "\"%s\" has a meaning already; choose another name", next.name);
     }
     for (int i = 0; i < r->definitions.count; i++) {
