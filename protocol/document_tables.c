@@ -297,7 +297,7 @@ const struct record_type shader_types[] = {
          .doc = "Contour lines between the two values; 0 for none. One of them is at 0."},
         {"slope", PARAM_BOOL,
          .doc = "Colours by the length of the function's gradient, not by its value."}
-        EQUATION_LETTERS_EACH(LETTER_ROW, "function", false),
+        EQUATION_LETTERS_EACH(LETTER_ROW, "function"),
         {"roughness", PARAM_FLOAT, .def = {0.4}, .min = 0, .max = 1, .step = 0.05,
          .means = "roughness", .doc = "From 0, a mirror, to 1, matt."})},
     {.name = NULL},

@@ -72,11 +72,11 @@ struct param {
 };
 
 /* One more row: of a letter of an equation, which matters where it stands in the parameter IN. */
-#define LETTER_ROW(LETTER, IN, MAIN)                                                               \
+#define LETTER_ROW(LETTER, IN)                                                                     \
     ,                                                                                              \
     {                                                                                              \
         LETTER, PARAM_FLOAT, UNIT_NONE, .def = {1}, .step = 0.01, .when = IN "~" LETTER,           \
-                                        .main = MAIN, .doc = "The letter " LETTER "."              \
+                                        .doc = "The letter " LETTER "."                            \
     }
 
 /* Always holds something that its row accepts. */

@@ -79,7 +79,7 @@ const struct node_type node_fractals[] = {
          .handle = "radius, 0, 0", .doc = "Of the ball."},
         {"thickness", PARAM_FLOAT, SIZE, .def = {0.03}, .when = "mode=sheet",
          .doc = "Of the sheet."}
-        EQUATION_LETTERS_EACH(LETTER_ROW, "equation", true))},
+        EQUATION_LETTERS_EACH(LETTER_ROW, "equation"))},
      .number = 75, .group = GROUP_PRIMITIVE, .kind = KIND_EQUATION, .exactness = BOUND,
      .lipschitz = 0, .glsl = "", .words = "equation function algebraic surface polynomial "
      "isosurface maths formula quadric",
@@ -93,7 +93,7 @@ const struct node_type node_fractals[] = {
          .def = {1}, .doc = "Patches along each parameter: 16, 32 or 64."},
         {"thickness", PARAM_FLOAT, SIZE, .def = {0.05}, .main = true, .handle = OUT("thickness/2"),
          .doc = "Of the sheet."}
-        EQUATION_LETTERS_EACH(LETTER_ROW, "surface", false))},
+        EQUATION_LETTERS_EACH(LETTER_ROW, "surface"))},
      .number = 76, .group = GROUP_PRIMITIVE, .kind = KIND_SURFACE, .exactness = BOUND,
      .lipschitz = 0, .glsl = "", .words = "function patch spline bezier sheet helicoid maths "
      "formula mesh curve",

@@ -265,7 +265,7 @@ void jet_room(double *out, const double *const in[], int n)
 
 void jet_ahead(double *out, const double *const in[], int n)
 {
-    const double *dual = in[1], step = copysign(in[2][1], dual[3]);
+    const double *dual = in[1], step = dual[3] < 0 ? -in[2][1] : in[2][1];
     const double slope = fmax(length_of(dual), 1e-18);
 
     UNUSED(n);
@@ -277,7 +277,7 @@ void jet_ahead(double *out, const double *const in[], int n)
 void jet_estimated(double *out, const double *const in[], int n)
 {
     const double value = in[1][0], step = fmax(in[1][1], 1e-18), slope = length_of(in[0]);
-    const double ahead = copysign(1, in[0][3]) * in[2][3];
+    const double ahead = in[0][3] < 0 ? -in[2][3] : in[2][3];
     const double bend = (ahead - value + slope * step) / (step * step);
 
     UNUSED(n);

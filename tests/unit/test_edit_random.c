@@ -12,7 +12,7 @@
 #include "protocol/json.h"
 #include "tests/support/random_edit.h"
 
-enum { DOCUMENTS = 60, EDITS = 60, DAMAGED = 3000 };
+enum { DOCUMENTS = 75, EDITS = 60, DAMAGED = 3000 };
 
 static struct error err;
 
