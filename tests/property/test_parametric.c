@@ -342,10 +342,10 @@ static void errors_say_where(void **state)
         int line, column;
     } rows[] = {
         {"'x':'s*ç','y':'t','z':'0','s':[0,1],'t':[0,1]", "/nodes/it/params/surface/x", "", 1, 3},
-        {"'x':'π*s + q','y':'t','z':'0','s':[0,1],'t':[0,1]", "/nodes/it/params/surface/x", "q", 1,
+        {"'x':'π*s + j','y':'t','z':'0','s':[0,1],'t':[0,1]", "/nodes/it/params/surface/x", "j", 1,
          7},
         {"'x':'s','y':'u','z':'0','s':[0,1],'t':[0,1]", "/nodes/it/params/surface/y", "u", 1, 1},
-        {"'x':'s','y':'t','z':'q+sn(s)','s':[0,1],'t':[0,1]", "/nodes/it/params/surface/z",
+        {"'x':'s','y':'t','z':'j+sn(s)','s':[0,1],'t':[0,1]", "/nodes/it/params/surface/z",
          "(also 1:3: \"sn\"", 1, 1},
         {"'x':'s','y':'t','z':'(s','s':[0,1],'t':[0,1]", "/nodes/it/params/surface/z", ")", 1, 3},
     };
