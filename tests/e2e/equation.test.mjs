@@ -67,7 +67,7 @@ test('is typed letter by letter; what cannot be read is marked and leaves the pi
 
 test('is typeset while it is typed; the last that can be read stays dimmed, and each fault is marked', async () => {
     await open();
-    const set = page.getByRole('region', { name: 'typeset' });
+    const set = page.getByRole('group', { name: 'typeset' });
     /* Without what is invisible. */
     const lines = async () => (await set.locator('math').allTextContents()).map((line) => line.replace(/[\u2061\u2062]/g, ''));
     const shows = (...wanted) => until(async () => String(await lines()) === String(wanted), `${wanted} typeset`);

@@ -89,7 +89,7 @@ export default function Typeset({ text, form, problem, tells = true }: Props) {
 }
 
 function Lines({ lines, isOld }: { lines: readonly string[]; isOld: boolean }) {
-    const box = useRef<HTMLElement>(null);
+    const box = useRef<HTMLDivElement>(null);
     const nodes = useMemo(() => lines.map(mathmlNode), [lines]);
     const [scrolls, setScrolls] = useState(false);
     // biome-ignore lint/correctness/useExhaustiveDependencies: measured anew with each text
@@ -103,9 +103,12 @@ function Lines({ lines, isOld }: { lines: readonly string[]; isOld: boolean }) {
         setScrolls(scrollWidth > clientWidth || scrollHeight > clientHeight);
     }, [nodes]);
     return nodes.length === 0 ? null : (
-        <section
+        // biome-ignore lint/a11y/useSemanticElements: a fieldset brings a look and a legend of its own
+        <div
             ref={box}
             className="typeset"
+            /* No landmark: a surface has three. */
+            role="group"
             aria-label={LABEL}
             data-old={isOld || undefined}
             /* Scrolled by keys. */
@@ -117,6 +120,6 @@ function Lines({ lines, isOld }: { lines: readonly string[]; isOld: boolean }) {
                     {node}
                 </div>
             ))}
-        </section>
+        </div>
     );
 }
