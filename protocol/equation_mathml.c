@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "equation_mathml.h"
 
-#include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "mathml.h"
