@@ -50,7 +50,7 @@ const stage = useStage({ driver: 'null' }, async () => {
  */
 async function check(page, what, without = []) {
     const light = await page.evaluate(() => matchMedia('(prefers-color-scheme: light)').matches);
-    const axe = new AxeBuilder({ page }).setLegacyMode(); // else each look opens a page more
+    const axe = new AxeBuilder({ page }).options({ resultTypes: ['violations'] }).setLegacyMode(); // else each look opens a page more
     const { violations } = await (light ? axe.withRules(['color-contrast']) : axe.withTags(RULES))
         .disableRules(without)
         .exclude('[data-base-ui-focus-guard]')

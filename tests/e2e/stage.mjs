@@ -7,6 +7,7 @@ import { after, afterEach, before } from 'node:test';
 import { ask, startDaemon, until } from '../support/daemon.mjs';
 import { descendantsOf, Patience } from '../support/patience.mjs';
 import { decodePng } from '../support/png.mjs';
+import { Tabs } from './tabs.mjs';
 
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
 const { chromium } = require('playwright-core');
@@ -26,6 +27,7 @@ const FLAGS = [
     '--disable-component-update',
     '--disable-sync',
     '--force-color-profile=srgb',
+    '--disable-features=BackForwardCache', // it keeps pages that were left
 ];
 
 const WEBGL_FLAGS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
@@ -100,19 +102,6 @@ function watch(browser) {
     return { heard: () => patience.heard(), end: () => clearInterval(timer) };
 }
 
-const COARSE = 2;
-
-/** The page asks for so many times fewer pixels in each direction, and magnifies the pictures. */
-function coarsenPictures(times) {
-    const { prototype } = ResizeObserverEntry;
-    const { get } = Object.getOwnPropertyDescriptor(prototype, 'devicePixelContentBoxSize');
-    Object.defineProperty(prototype, 'devicePixelContentBoxSize', {
-        get() {
-            return get.call(this).map(({ inlineSize, blockSize }) => ({ inlineSize: inlineSize / times, blockSize: blockSize / times }));
-        },
-    });
-}
-
 /**
  * FIELDCAST_WEB: a built page to serve instead of the one in the program. `data`: where. `driver`: as
  * of startDaemon. `whole`: in the browser that users have. `webgl`: the processors do what it asks for.
@@ -126,6 +115,7 @@ export async function openStage({ data, driver, whole = false, webgl = false, co
     const flags = webgl ? [...FLAGS.filter((flag) => flag !== '--disable-gpu'), ...WEBGL_FLAGS] : FLAGS;
     const browser = await chromium.launch({ executablePath, args: flags, timeout: 0 });
     const watched = watch(browser);
+    const tabs = new Tabs(browser, () => `${daemon.url}/healthz`);
     let made = 0;
     return {
         daemon,
@@ -140,7 +130,7 @@ export async function openStage({ data, driver, whole = false, webgl = false, co
         },
         /** Something is still going on. */
         heard: watched.heard,
-        page: (options) => openPage(browser, daemon, watched, { whole, coarse, ...options }),
+        page: (options) => openPage(tabs, daemon, watched, { whole, coarse, ...options }),
         /** The document's bytes as the server holds them. */
         document: async (id) => (await fetch(`${daemon.url}/v1/scenes/${id}`)).text(),
         async close() {
@@ -167,7 +157,7 @@ export function useStage(options, prepare = () => {}) {
     });
     after(() => stage.close());
     afterEach(async () => {
-        const left = [...open].filter((page) => !page.isClosed());
+        const left = [...open].filter(isOpen);
         open.clear();
         for (const page of left) {
             await closePage(page);
@@ -176,35 +166,17 @@ export function useStage(options, prepare = () => {}) {
     return stage;
 }
 
+const tabsOf = new WeakMap(); // of pages that a stage opened
+
 /** `scene` null: the start page. What the console says goes into `page.problems`. */
-async function openPage(browser, daemon, watched, options = {}) {
-    const { scene = null, width = 1200, height = 800, theme = 'dark', hints = false } = options;
-    const context = await browser.newContext({
-        viewport: { width, height },
-        colorScheme: theme,
-        reducedMotion: 'reduce',
-        hasTouch: options.touch === true,
-        acceptDownloads: true,
-    });
-    await context.addInitScript((showHints) => {
-        const key = 'fieldcast.preferences';
-        if (!showHints && localStorage.getItem(key) === null) {
-            localStorage.setItem(key, JSON.stringify({ hintsDone: ['drag', 'click'] }));
-        }
-    }, hints);
-    if (options.coarse) {
-        await context.addInitScript(coarsenPictures, COARSE);
-    }
-    if (!options.whole) {
-        await context.addInitScript(() => {
-            delete Element.prototype.requestPointerLock;
-        });
-    }
-    const page = await context.newPage();
-    page.setDefaultTimeout(0);
+async function openPage(tabs, daemon, watched, options = {}) {
+    const { scene = null, width = 1200, height = 800, theme = 'dark', ...more } = options;
+    const page = await tabs.take({ width, height, theme, ...more });
+    tabsOf.set(page, tabs);
     page.on('request', watched.heard);
     page.on('websocket', (socket) => socket.on('framereceived', watched.heard));
     page.problems = [];
+    page.expected = undefined;
     page.on('pageerror', (error) => page.problems.push(String(error)));
     page.on('console', (message) => {
         if (message.type() === 'error' || message.type() === 'warning') {
@@ -218,9 +190,11 @@ async function openPage(browser, daemon, watched, options = {}) {
     return page;
 }
 
+const isOpen = (page) => (tabsOf.has(page) ? tabsOf.get(page).isOut(page) : !page.isClosed());
+
 /** Ends a page and answers for its console; `expected`: what it may say at any time. */
 export async function closePage(page) {
-    await page.context().close();
+    await (tabsOf.has(page) ? tabsOf.get(page).giveBack(page) : page.context().close());
     assert.deepEqual(page.problems.filter((problem) => !page.expected?.test(problem)), []);
 }
 

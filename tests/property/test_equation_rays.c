@@ -451,10 +451,12 @@ static void shaders_end_at_the_first_root(void **state)
 enum { TURNS_LEAST = 3, TURNS_MOST = 20, COST_WIDTH = 640, COST_HEIGHT = 360 };
 
 /* Of what a mandelbulb costs, in which arithmetic alone counts, in half of the width and height.
- * Where that takes 0.24 s of the processor, these are 60, 36 and 60 ms of two. */
+ * Where that takes 0.24 s of the processor, `asked` is 60, 36 and 60 ms of two. A busy machine
+ * shares its caches, which the pictures here feel and the mandelbulb does not: what fails is twice
+ * as much. */
 static const struct cost {
     const char *field;
-    double most;
+    double asked;
 } costs[] = {{"gyroid", 0.5}, {"barth", 0.3}, {"triangle", 0.5}};
 enum { COSTS = sizeof costs / sizeof costs[0] };
 
@@ -517,7 +519,7 @@ static bool cost_too_much(const struct seen_costs *seen)
     bool much = false;
 
     for (int i = 0; i < COSTS; i++) {
-        much = much || !(part_of(seen, i) < costs[i].most);
+        much = much || !(part_of(seen, i) < 2 * costs[i].asked);
     }
     return much;
 }
@@ -531,8 +533,8 @@ static void pictures_cost_little(void **state)
         measure_costs(&seen);
     }
     for (int i = 0; i < COSTS; i++) {
-        print_message("# %-13s %.0f ms, %.2f of a mandelbulb\n", costs[i].field,
-                      1e3 * (seen.each[i] - seen.empty), part_of(&seen, i));
+        print_message("# %-13s %.0f ms, %.2f of a mandelbulb (%.2f asked)\n", costs[i].field,
+                      1e3 * (seen.each[i] - seen.empty), part_of(&seen, i), costs[i].asked);
     }
     assert_false(cost_too_much(&seen));
 }
