@@ -102,7 +102,12 @@ library := $(OUT)/libfieldcast.a
 
 fieldcast: $(OUT)/fieldcast $(OUT)/fieldcast-algebra ## the program with the page that web/dist holds now, if any (C only)
 
-$(OUT)/fieldcast: $(main) $(library) $(OUT)/link-flags
+# Of programs with AddressSanitizer. It runs before the sanitizer is ready.
+linked_asan := $(call object,$(wildcard $(S)/tests/support/sanitized/*.c))
+linked := $(linked_$(CONFIG))
+$(linked_asan): config_asan += $(unchecked)
+
+$(OUT)/fieldcast: $(main) $(linked) $(library) $(OUT)/link-flags
 	$(call say,LD,$@)
 	$(Q)$(link) -o $@ $(filter %.o %.a,$^) $(packages_libs)
 
@@ -209,7 +214,7 @@ preloaded := $(patsubst %.o,%.so,$(call object,$(wildcard $(S)/tests/*/*_driver.
 
 programs: $(OUT)/fieldcast $(OUT)/fieldcast-algebra $(test_programs) $(preloaded) $(BUILD)/compile_commands.json ## the program and all C tests
 
-$(test_programs): %: %.o $(support) $(library) $(OUT)/link-flags
+$(test_programs): %: %.o $(support) $(linked) $(library) $(OUT)/link-flags
 	$(call say,LD,$@)
 	$(Q)$(link) -o $@ $(filter %.o %.a,$^) -lcmocka -lturbojpeg $(tested_libs) $(packages_libs)
 
