@@ -73,9 +73,9 @@ static void lose(void)
 static int status_of(void (*act)(void))
 {
     int status = 0;
+
     fflush(NULL);
     const pid_t child = fork();
-
     if (child == 0) {
         const int nowhere = open("/dev/null", O_WRONLY);
 
