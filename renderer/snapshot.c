@@ -46,16 +46,46 @@ static bool is_reflective(const struct field *field)
     return false;
 }
 
-static bool has_estimates(const struct field *field)
+static bool is_equation(const struct field *field, const struct field_instruction *in)
+{
+    return in->op == FIELD_SHAPE &&
+           (in->sdf ? in->choices == FIELD_POLYNOMIAL : field->codes[in->choices].own);
+}
+
+/* Rows of a shape's matrix are as long as its space is pressed. */
+static bool is_scaled_along_an_axis(const double matrix[12])
+{
+    double square[3];
+
+    for (int i = 0; i < 3; i++) {
+        const double *row = matrix + 4 * i;
+        square[i] = row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
+    }
+    const double most = fmax(square[0], fmax(square[1], square[2]));
+    const double least = fmin(square[0], fmin(square[1], square[2]));
+    return most > 1.0001 * least;
+}
+
+/* Whether a field rises by less than the way from its surface: where space is warped, and of shapes
+ * that know but a bound. Equations have estimates. Fractals are rough, which darkens them. */
+static bool rises_slowly(const struct field *field, const struct field_instruction *in)
+{
+    if (in->op != FIELD_SHAPE) {
+        return in->op == FIELD_AFTER && in->type->lipschitz == 0;
+    }
+    const bool rough = in->sdf && in->sdf->trips;
+    return !is_equation(field, in) && (!in->sdf || (in->type->exactness == BOUND && !rough) ||
+                                       is_scaled_along_an_axis(field->arguments + in->arguments));
+}
+
+static void note_bounds(const struct field *field, struct scene_bounds *extent)
 {
     for (size_t i = 0; i < field->instruction_count; i++) {
         const struct field_instruction *in = &field->instructions[i];
-        if (in->op == FIELD_SHAPE &&
-            (in->sdf ? in->choices == FIELD_POLYNOMIAL : field->codes[in->choices].own)) {
-            return true;
-        }
+
+        extent->rise = extent->rise || rises_slowly(field, in);
+        extent->estimates = extent->estimates || is_equation(field, in);
     }
-    return false;
 }
 
 /* While the outermost shape is dragged, rays begin where they did before, and the rest of the
@@ -77,7 +107,6 @@ struct scene_bounds snapshot_bounds(const struct geometry *geometry, const struc
     struct scene_bounds extent = {.scale = scene_scale(camera),
                                   .transmissive = field->transmissive,
                                   .reflective = is_reflective(field),
-                                  .estimates = has_estimates(field),
                                   .step = bounds_step(field, scene_scale(camera)),
                                   .loop_trips = (int)field->loop_trips,
                                   .limit_loops = limit_loops};
@@ -88,6 +117,7 @@ struct scene_bounds snapshot_bounds(const struct geometry *geometry, const struc
         extent.transmissive_min[i] = field->transmissive_bounds.low[i];
         extent.transmissive_max[i] = field->transmissive_bounds.high[i];
     }
+    note_bounds(field, &extent);
     return extent;
 }
 

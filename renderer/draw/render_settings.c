@@ -121,7 +121,7 @@ static void set_effects(struct render_settings *settings, struct frame_uniforms 
                      (is_on(render, "reflections") ? EFFECT_REFLECTIONS : 0) |
                      (is_on(render, "refractions") ? EFFECT_REFRACTIONS : 0) |
                      (transparent ? EFFECT_TRANSPARENT : 0) | (pictured ? EFFECT_CURVATURE : 0) |
-                     (extent->estimates ? EFFECT_ESTIMATES : 0);
+                     (extent->estimates ? EFFECT_ESTIMATES : 0) | (extent->rise ? EFFECT_RISE : 0);
     block->min_throughput = (float)q->min_throughput;
     settings->rays = block->ray_depth ? q->rays : 0;
     settings->transmission_depth = is_on(render, "shadows") ? q->transmission_depth : 0;

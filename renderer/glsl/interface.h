@@ -32,7 +32,8 @@
     X(EFFECT_TRANSPARENT, 16)                                                                      \
     X(EFFECT_CURVATURE, 32) /* of surfaces is wanted */                                            \
     X(EFFECT_SECTION, 64)                                                                          \
-    X(EFFECT_ESTIMATES, 128) /* some shapes estimate their distance: field_mask.glsl */
+    X(EFFECT_ESTIMATES, 128) /* some shapes estimate their distance: field_mask.glsl */            \
+    X(EFFECT_RISE, 256)      /* how a field rises from its surface is looked at: shadow.glsl */
 /* A field as data for an interpreter of shaders: a texture of whole numbers, four in a texel. Its
  * places are texels of a row behind each other.
  *

@@ -119,7 +119,9 @@ struct Sight {
     float lambert, lift;    /* cosine to the surface's normal, and the place's height over it */
 };
 
-/* Of a sight whose openness is asked for, along a normal. */
+/* Of a sight whose openness is asked for, along a normal. Where the field is but a bound of the
+ * distance, it rises by less than the way from the surface: that is looked at first, next to the
+ * surface, and what rises like that further on is as open as can be. */
 #define SIGHT_OPEN (-1)
 
 /* The part that is seen along it: of a light by the kind of its shadow, or of the environment.
@@ -131,8 +133,11 @@ float visible(Sight sight, int kind, int steps)
     float x = kind == SIGHT_OPEN ? occlusion_place(0, sight.near) : sight.near, dark = 0.0;
     float bound = 0.0;
     bool estimates = (frame.effects & EFFECT_ESTIMATES) != 0 && kind != SHADOW_HARD;
+    bool risen = kind == SIGHT_OPEN && steps > 0 && (frame.effects & EFFECT_RISE) != 0;
+    float rise = 1.0;
 
-    for (int i = zero; i < steps; i++) {
+    x = risen ? 2.0 * sight.near : x;
+    for (int i = zero - (risen ? 1 : 0); i < steps; i++) {
         vec3 p = sight.origin + sight.direction * x;
         /* From there on nothing gets darker. */
         float enough = kind == SIGHT_OPEN    ? x
@@ -155,7 +160,8 @@ float visible(Sight sight, int kind, int steps)
         bound = field_estimates ? bound : d;
         field_estimates = false;
         if (kind == SIGHT_OPEN) {
-            dark += clamp(1.0 - d / x, 0.0, 1.0);
+            rise = i < 0 ? clamp(d / x, 0.1, 1.0) : rise;
+            dark += i < 0 ? 0.0 : clamp(1.0 - d / (rise * x), 0.0, 1.0);
             x = occlusion_place(i + 1, sight.near);
         } else {
             bool on = kind == SHADOW_HARD ? hard_step(s, d) : soft_step(s, bound, d);

@@ -143,25 +143,20 @@ static struct image light_of(const struct composition *composition, bool by_equa
 
 static void light_is_that_of_ordinary_shapes(const struct composition *composition, enum aov aov)
 {
-    const double much = 0.1, seen = 0.03;
+    const int places = WIDTH * HEIGHT;
 
     for (int i = 0; i < STAGES; i++) {
         renderer_use_stage(renderer, stages[i]);
         struct image image = light_of(composition, true, aov);
         struct image wanted = light_of(composition, false, aov);
-        const float *values = image.pixels, *others = wanted.pixels;
-        int off = 0, dark = 0;
-        for (int k = 0; k < WIDTH * HEIGHT; k++) {
-            off += fabs(values[image.channels * k] - others[image.channels * k]) > much;
-            dark += others[image.channels * k] < 1 - seen;
-        }
+        const struct light_difference found = drawing_compare_light(&image, &wanted, 0.1);
         image_finish(&image);
         image_finish(&wanted);
         print_message("# %s, %s: %d of %d places off, %d dark ones\n",
                       render_stage_names[stages[i]], aov == AOV_SHADOW ? "shadows" : "occlusion",
-                      off, WIDTH * HEIGHT, dark);
-        assert_true(dark > WIDTH * HEIGHT / 100);
-        assert_true(off <= WIDTH * HEIGHT * composition->off);
+                      found.off, places, found.dark);
+        assert_true(found.dark > places / 100);
+        assert_true(found.off <= places * composition->off);
     }
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "drawing.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -104,4 +105,19 @@ void drawing_finish(struct drawing *drawing)
 bool drawing_is_same(const struct image *a, const struct image *b)
 {
     return a->bytes == b->bytes && memcmp(a->pixels, b->pixels, a->bytes) == 0;
+}
+
+struct light_difference drawing_compare_light(const struct image *light, const struct image *wanted,
+                                              double much)
+{
+    const double seen = 0.03;
+    const float *values = light->pixels, *others = wanted->pixels;
+    struct light_difference result = {0};
+
+    for (int i = 0; i < wanted->width * wanted->height; i++) {
+        const float value = values[light->channels * i], other = others[wanted->channels * i];
+        result.off += fabs(value - other) > much;
+        result.dark += other < 1 - seen;
+    }
+    return result;
 }

@@ -26,5 +26,12 @@ struct drawing drawing_outputs(struct renderer *renderer, struct resident *resid
                                const struct job_desc *desc);
 void drawing_finish(struct drawing *drawing);
 bool drawing_is_same(const struct image *a, const struct image *b);
+/* How two pictures of occlusion or shadows, as floats, differ: in so many places by more than
+ * `much`. `dark` places of `wanted` get less than all light. */
+struct light_difference {
+    int off, dark;
+};
+struct light_difference drawing_compare_light(const struct image *light, const struct image *wanted,
+                                              double much);
 
 #endif
