@@ -154,15 +154,27 @@ test('the probe tells the node, the distance and the place under the pointer', a
     await page.getByRole('combobox').fill('under the pointer');
     await page.keyboard.press('Enter');
     const told = page.getByTestId('pointed');
+    const node = async () => ((await told.count()) > 0 ? told.locator('dd').first().textContent() : null);
     const spot = spotOf([0.5, 0.9, 1.6]);
     const picked = await surfaceAt(spot);
     await page.mouse.move(box.x + spot.x, box.y + spot.y);
-    await until(async () => (await told.locator('dd').first().textContent()) === 'sun', 'the node');
+    await until(async () => (await node()) === 'sun', 'the node');
     const numbers = (await told.locator('dd').allTextContents()).slice(1).join(' ').match(/-?\d+(\.\d+)?/g).map(Number);
     const wanted = [picked.distance, ...picked.position];
     wanted.forEach((x, i) => assert.ok(Math.abs(numbers[i] - x) < 0.01, `${numbers} for ${wanted}`));
     await page.mouse.move(box.x + box.width / 2, box.y + 120);
-    await until(async () => (await told.locator('dd').first().textContent()) === 'nothing', 'nothing above the horizon');
+    await until(async () => (await node()) === 'nothing', 'nothing above the horizon');
     await picture(page).dispatchEvent('pointerleave');
     await told.waitFor({ state: 'detached' });
+});
+
+test('a probe that is switched on by keys tells what is under a pointer that rests', async () => {
+    await open();
+    const spot = spotOf([0.5, 0.9, 1.6]);
+    await page.mouse.move(box.x + spot.x, box.y + spot.y);
+    await page.keyboard.press('Control+k');
+    await page.getByRole('combobox').fill('under the pointer');
+    await page.keyboard.press('Enter');
+    const told = page.getByTestId('pointed').locator('dd').first();
+    await until(async () => (await told.count()) > 0 && (await told.textContent()) === 'sun', 'the node');
 });

@@ -2,71 +2,68 @@
 /* The value of the output that is shown, at the pixel under the pointer: one pixel of the same
  * picture that REST gives. Where it is asked for, also the node, the distance and the place there, at
  * once from the guide of the picture. */
-import { useEffect, useRef, useState } from "react";
+import { useEffect, useState } from "react";
 import { distanceAt, surfaceAt } from "../../model/distances.ts";
 import { nodeLabel } from "../../model/document.ts";
 import { nodeAt, shownGuide } from "../../model/guide.ts";
-import { projectionOf, type Spot } from "../../model/projection.ts";
+import { projectionOf } from "../../model/projection.ts";
 import type { Vector } from "../../model/transform.ts";
 import { COLOR } from "../../model/view.ts";
 import { shownCamera } from "../../overlay/shown.ts";
 import type { Editor } from "../editor.ts";
-import { useDocument, useEditor, useView } from "../state.ts";
+import { useDocument, useEditor, useLink, useView } from "../state.ts";
 import { t } from "../texts.ts";
-import { pixelAt } from "./pixel.ts";
+import { type Place, pixelAt } from "./pixel.ts";
 import "./view.css";
 
 /* A pointer that moves on is not asked for. */
 const REST_MS = 90;
 
-/* Asks when the pointer rests; null while it is not over the picture. */
-function useValues(active: boolean, element: Element | null): readonly number[] | null {
-    const editor = useEditor();
-    const [values, setValues] = useState<readonly number[] | null>(null);
-    const revision = useDocument((state) => state.revision);
-    const last = useRef<PointerEvent | null>(null);
-    // biome-ignore lint/correctness/useExhaustiveDependencies: another revision has other values
+/* Where the pointer is over the picture, whether or not anybody asks: what is switched on by a key
+ * knows it at once. What lay over the picture and goes lets the pointer enter without a move. */
+function usePlace(element: Element | null): Place | null {
+    const [place, setPlace] = useState<Place | null>(null);
     useEffect(() => {
-        if (!active || !(element instanceof HTMLElement)) {
-            setValues(null);
+        if (!(element instanceof HTMLElement)) {
             return;
         }
         const ended = new AbortController();
-        let asked = new AbortController();
-        let timer: ReturnType<typeof setTimeout> | undefined;
-        const ask = (event: PointerEvent): void => {
-            last.current = event;
-            clearTimeout(timer);
-            asked.abort();
-            asked = new AbortController();
-            timer = setTimeout(() => {
-                pixelAt(
-                    editor,
-                    element,
-                    event,
-                    editor.stores.view.getState().aov,
-                    asked.signal,
-                ).then(setValues, () => undefined);
-            }, REST_MS);
-        };
-        const leave = (): void => {
-            last.current = null;
-            clearTimeout(timer);
-            asked.abort();
-            setValues(null);
-        };
-        element.addEventListener("pointermove", ask, { signal: ended.signal });
-        element.addEventListener("pointerdown", ask, { signal: ended.signal });
-        element.addEventListener("pointerleave", leave, { signal: ended.signal });
-        if (last.current) {
-            ask(last.current);
+        const options = { signal: ended.signal };
+        const there = ({ clientX, clientY }: PointerEvent): void => setPlace({ clientX, clientY });
+        for (const type of ["pointerenter", "pointermove", "pointerdown"] as const) {
+            element.addEventListener(type, there, options);
         }
+        element.addEventListener("pointerleave", () => setPlace(null), options);
+        return () => ended.abort();
+    }, [element]);
+    return place;
+}
+
+/* Asks when the pointer rests; null while it is not over the picture. */
+function useValues(
+    active: boolean,
+    element: Element | null,
+    place: Place | null,
+): readonly number[] | null {
+    const editor = useEditor();
+    const [values, setValues] = useState<readonly number[] | null>(null);
+    const revision = useDocument((state) => state.revision);
+    // biome-ignore lint/correctness/useExhaustiveDependencies: another revision has other values
+    useEffect(() => {
+        if (!active || element === null || place === null) {
+            setValues(null);
+            return;
+        }
+        const asked = new AbortController();
+        const timer = setTimeout(() => {
+            const { aov } = editor.stores.view.getState();
+            pixelAt(editor, element, place, aov, asked.signal).then(setValues, () => undefined);
+        }, REST_MS);
         return () => {
-            ended.abort();
-            asked.abort();
             clearTimeout(timer);
+            asked.abort();
         };
-    }, [editor, active, element, revision]);
+    }, [editor, active, element, place, revision]);
     return values;
 }
 
@@ -80,12 +77,18 @@ interface Pointed {
 }
 
 /* Null while the picture has no guide. */
-function pointedAt({ stores }: Editor, element: Element, { x, y }: Spot): Pointed | null {
+function pointedAt(
+    { stores }: Editor,
+    element: Element,
+    { clientX, clientY }: Place,
+): Pointed | null {
     const guide = shownGuide(stores.link.getState());
     const camera = shownCamera(stores);
     if (!guide || !camera) {
         return null;
     }
+    const box = element.getBoundingClientRect();
+    const [x, y] = [clientX - box.left, clientY - box.top];
     const size = { width: element.clientWidth, height: element.clientHeight };
     return {
         node: nodeAt(guide, x / size.width, y / size.height),
@@ -94,38 +97,13 @@ function pointedAt({ stores }: Editor, element: Element, { x, y }: Spot): Pointe
     };
 }
 
-/* Null while the pointer is not over the picture. */
-function usePointed(active: boolean, element: Element | null): Pointed | null {
+/* What is there in the picture that is shown. */
+function UnderPointer({ element, place }: { element: Element; place: Place }) {
     const editor = useEditor();
-    const [pointed, setPointed] = useState<Pointed | null>(null);
-    useEffect(() => {
-        if (!active || !(element instanceof HTMLElement)) {
-            setPointed(null);
-            return;
-        }
-        const ended = new AbortController();
-        let last: Spot | null = null;
-        const tell = (): void => setPointed(last && pointedAt(editor, element, last));
-        const move = ({ clientX, clientY }: PointerEvent): void => {
-            const box = element.getBoundingClientRect();
-            last = { x: clientX - box.left, y: clientY - box.top };
-            tell();
-        };
-        const leave = (): void => {
-            last = null;
-            tell();
-        };
-        element.addEventListener("pointermove", move, { signal: ended.signal });
-        element.addEventListener("pointerleave", leave, { signal: ended.signal });
-        const stop = editor.stores.link.subscribe(
-            (now, before) => (now.guide !== before.guide || now.frame !== before.frame) && tell(),
-        );
-        return () => {
-            ended.abort();
-            stop();
-        };
-    }, [editor, active, element]);
-    return pointed;
+    useLink(({ guide }) => guide);
+    useLink(({ frame }) => frame);
+    const pointed = pointedAt(editor, element, place);
+    return pointed && <Told pointed={pointed} />;
 }
 
 function Told({ pointed: { node, place, distance } }: { pointed: Pointed }) {
@@ -156,8 +134,8 @@ export default function Probe() {
     /* What is isolated is drawn for this page alone; REST draws the whole scene. */
     const isolated = useView((view) => view.isolated.length > 0);
     const [element, setElement] = useState<Element | null>(null);
-    const values = useValues((aov !== COLOR || probing) && !isolated, element);
-    const pointed = usePointed(probing, element);
+    const place = usePlace(element);
+    const values = useValues((aov !== COLOR || probing) && !isolated, element, place);
     return (
         <div
             className="outputs-probe"
@@ -171,7 +149,7 @@ export default function Probe() {
                     {values.map(number).join("  ")}
                 </output>
             )}
-            {pointed && <Told pointed={pointed} />}
+            {probing && element && place && <UnderPointer element={element} place={place} />}
         </div>
     );
 }
