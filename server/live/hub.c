@@ -6,10 +6,12 @@
 #include "protocol/code_text.h"
 #include "room_state.h"
 #include "server/clock.h"
+#include "server/doorbell.h"
 
 void hub_lock(struct hub *hub)
 {
     pthread_mutex_lock(&hub->lock);
+    doorbells_hold();
     hub->locked_us = clock_thread_us();
 }
 
@@ -27,12 +29,15 @@ void hub_unlock(struct hub *hub)
 {
     measure(hub);
     pthread_mutex_unlock(&hub->lock);
+    doorbells_release();
 }
 
 void hub_wait(struct hub *hub, pthread_cond_t *condition)
 {
     measure(hub);
+    doorbells_release(); /* some of them may wake who signals the condition */
     pthread_cond_wait(condition, &hub->lock);
+    doorbells_hold();
     hub->locked_us = clock_thread_us();
 }
 
@@ -41,7 +46,9 @@ void hub_wait_until(struct hub *hub, pthread_cond_t *condition, int64_t until_us
     const struct timespec until = {until_us / 1000000, until_us % 1000000 * 1000};
 
     measure(hub);
+    doorbells_release();
     pthread_cond_clockwait(condition, &hub->lock, CLOCK_MONOTONIC, &until);
+    doorbells_hold();
     hub->locked_us = clock_thread_us();
 }
 

@@ -20,6 +20,7 @@
 #include "heartbeat.h"
 #include "protocol/memory.h"
 #include "server/clock.h"
+#include "server/doorbell.h"
 #include "server/log.h"
 #include "server/net/shared_buffer.h"
 
@@ -47,6 +48,7 @@ struct supervisor {
     struct supervisor_params params;
     pthread_t thread;
     int wake_fd;
+    struct doorbell bell, post; /* wakes its thread; writes the chunks */
     atomic_bool stopping;
     atomic_int patience; /* times busy_ms */
 
@@ -140,9 +142,30 @@ static void load_first(struct supervisor *supervisor)
     free(bytes);
 }
 
+static void ring(void *data)
+{
+    const struct supervisor *supervisor = data;
+
+    eventfd_write(supervisor->wake_fd, 1);
+}
+
 void supervisor_wake(struct supervisor *supervisor)
 {
-    eventfd_write(supervisor->wake_fd, 1);
+    doorbell_ring(&supervisor->bell);
+}
+
+/* What the socket does not take is left to the supervisor's thread. */
+static void write_or_wake(void *data)
+{
+    struct supervisor *supervisor = data;
+
+    pthread_mutex_lock(&supervisor->lock);
+    chunks_write(supervisor);
+    const bool rest = supervisor->first != NULL;
+    pthread_mutex_unlock(&supervisor->lock);
+    if (rest) {
+        supervisor_wake(supervisor);
+    }
 }
 
 /* Takes `chunk`, and `next`, which goes behind it and may be NULL. */
@@ -160,12 +183,8 @@ static void send_chunks(struct supervisor *supervisor, struct chunk *chunk, stru
     chunk->next = next;
     *supervisor->end = chunk;
     supervisor->end = next ? &next->next : &chunk->next;
-    chunks_write(supervisor);
-    const bool rest = supervisor->first != NULL;
     pthread_mutex_unlock(&supervisor->lock);
-    if (rest) {
-        supervisor_wake(supervisor);
-    }
+    doorbell_ring(&supervisor->post);
 }
 
 void supervisor_send(struct supervisor *supervisor, const struct packet *packet)
@@ -555,6 +574,8 @@ struct supervisor *supervisor_create(const struct supervisor_params *params)
     supervisor->fd = supervisor->heartbeat.fd = -1;
     memset(supervisor->spare, -1, sizeof supervisor->spare);
     supervisor->end = &supervisor->first;
+    supervisor->bell = (struct doorbell){ring, supervisor};
+    supervisor->post = (struct doorbell){write_or_wake, supervisor};
     supervisor->wake_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     pthread_mutex_init(&supervisor->lock, NULL);
     if (supervisor->wake_fd < 0 || pthread_create(&supervisor->thread, NULL, run, supervisor)) {

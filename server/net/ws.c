@@ -16,6 +16,7 @@
 #include "protocol/utf8.h"
 #include "send_queue.h"
 #include "server/clock.h"
+#include "server/doorbell.h"
 #include "server/log.h"
 #include "server/metrics.h"
 #include "workload.h"
@@ -56,6 +57,7 @@ struct ws {
     struct lws_context *context;
     struct lws_vhost *vhost;
     pthread_t thread;
+    struct doorbell bell;
     bool running;
     atomic_bool stopping, draining, kicked;
     atomic_int count;
@@ -76,11 +78,18 @@ static void link_destroy(struct link *link)
     free(link);
 }
 
+static void ring(void *data)
+{
+    const struct ws *ws = data;
+
+    lws_cancel_service(ws->context);
+}
+
 /* Any thread, mostly under the hub's lock. */
 static void kick(struct ws *ws)
 {
     if (!atomic_exchange(&ws->kicked, true)) {
-        lws_cancel_service(ws->context);
+        doorbell_ring(&ws->bell);
     }
 }
 
@@ -517,6 +526,7 @@ struct ws *ws_create(const struct ws_app *app, struct error *err)
     };
 
     ws->app = *app;
+    ws->bell = (struct doorbell){ring, ws};
     pthread_mutex_init(&ws->lock, NULL);
     lws_set_log_level(LLL_ERR | LLL_WARN, on_log);
     ws->context = lws_create_context(&info);

@@ -6,7 +6,7 @@ import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 // What every folder of server/ may use, and what it uses nothing of.
-const BASE = ['algebra', 'clock', 'digest', 'directory', 'embedded', 'log', 'metrics', 'questions', 'tasks'].map((name) => `server/${name}.h`);
+const BASE = ['algebra', 'clock', 'digest', 'directory', 'doorbell', 'embedded', 'log', 'metrics', 'questions', 'tasks'].map((name) => `server/${name}.h`);
 const WORKER = ['renderer/renderer.h', 'renderer/worker/worker.h', 'renderer/pick.h'];
 
 // What files in a folder or below it may include besides that folder: other folders, single headers.
