@@ -13,6 +13,7 @@
 
 #include "log.h"
 #include "protocol/memory.h"
+#include "renderer/slice.h"
 #include "server/live/hub_life.h"
 #include "server/live/hub_rooms.h"
 #include "server/live/session_life.h"
@@ -177,6 +178,7 @@ static bool start(struct server *server, const struct serve_params *params, cons
     };
 
     build_worker_argv(params, server->worker_argv);
+    slice_short(); /* the threads of connections */
     if (!check_bind(address, params->token, err) || !(server->hub = hub_create(&hub, err)) ||
         !start_net(server, err)) {
         return false;

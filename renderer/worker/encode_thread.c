@@ -11,6 +11,7 @@
 
 #include "protocol/memory.h"
 #include "renderer/patient.h"
+#include "renderer/slice.h"
 
 enum {
     SLICE_PIXELS = 1 << 16, /* encoded at a time: some 8 ms of PNG */
@@ -216,7 +217,11 @@ static bool start_threads(struct encode_thread *encode_thread)
 {
     pthread_t *threads = encode_thread->threads;
 
-    if (pthread_create(&threads[LANE_URGENT], NULL, serve_urgent, encode_thread) != 0) {
+    slice_short(); /* it waits for pictures, and drawing for nothing */
+    const bool urgent =
+        pthread_create(&threads[LANE_URGENT], NULL, serve_urgent, encode_thread) == 0;
+    slice_normal();
+    if (!urgent) {
         return false;
     }
     encode_thread->started++;

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "renderer/crash.h"
+#include "renderer/slice.h"
 #include "worker_internal.h"
 
 enum {
@@ -232,6 +233,7 @@ int worker_run(int fd, const struct worker_params *params)
     struct error err = {0};
 
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    slice_normal(); /* what the front is, drawing is not */
     crash_watch();
     confine_privileges();
     if (params->confine != CONFINE_OFF) {

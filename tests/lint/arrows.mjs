@@ -28,14 +28,14 @@ export const INCLUDES = {
     ],
     'renderer/worker': [
         'protocol',
-        ...['field', 'image', 'renderer.h', 'portrait.h', 'crash.h', 'patient.h', 'vigil.h'].map((name) => `renderer/${name}`),
+        ...['field', 'image', 'renderer.h', 'portrait.h', 'crash.h', 'patient.h', 'slice.h', 'vigil.h'].map((name) => `renderer/${name}`),
     ],
-    server: ['protocol', ...WORKER],
+    server: ['protocol', 'renderer/slice.h', ...WORKER],
     'server/net': ['protocol', ...BASE],
     'server/store': ['protocol', ...BASE],
     'server/live': ['protocol', ...WORKER, ...BASE, 'server/net', 'server/store'],
     'server/rest': ['protocol', ...BASE, 'server/net', 'server/live'],
-    'server/serve': ['protocol', 'renderer/renderer.h', ...BASE, 'server/net', 'server/live', 'server/rest'],
+    'server/serve': ['protocol', 'renderer/renderer.h', 'renderer/slice.h', ...BASE, 'server/net', 'server/live', 'server/rest'],
     'server/cli': ['protocol', 'renderer/renderer.h', 'renderer/worker/worker.h', ...BASE, 'server/store', 'server/serve.h'],
 };
 // What the files that all of server/ may use include themselves.

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* How long the calling thread may keep a processor that others want (sched_setattr(2),
+ * `sched_runtime`; Linux 6.12). */
+#ifndef RENDERER_SLICE_H
+#define RENDERER_SLICE_H
+
+enum { SLICE_SHORT_US = 1000 };
+
+/* For a thread that is woken, works for a moment and waits again: with short slices Linux gives it
+ * the processor of one that computes as soon as it is woken. Its share of the time stays the same.
+ * Threads and processes that it creates from here on have them too. No effect on older kernels and
+ * in a process that is confined (renderer/worker/confine.h). */
+void slice_short(void);
+/* As long as Linux gives by itself. */
+void slice_normal(void);
+
+#endif
