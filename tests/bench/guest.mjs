@@ -157,7 +157,7 @@ export const GUESTS = {
 
 const [port, name] = process.argv.slice(2);
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
-    os.setPriority(os.getPriority() + 10);
+    os.setPriority(10);
     const leave = await GUESTS[name]({ port: Number(port), url: `http://127.0.0.1:${port}` });
     process.stdout.write('here\n');
     process.stdin.resume().on('end', async () => {

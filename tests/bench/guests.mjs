@@ -11,6 +11,7 @@
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
 import http from 'node:http';
+import os from 'node:os';
 import { ask, counter, sleep, startDaemon } from '../support/daemon.mjs';
 import { Live, now } from '../support/live.mjs';
 import { GUESTS } from './guest.mjs';
@@ -21,6 +22,7 @@ const SECONDS = Number(process.env.GUEST_SECONDS ?? 4);
 const ROUNDS = Number(process.env.GUEST_ROUNDS ?? 5);
 const PICTURES = 3; // of 64×48, in each round
 const STAGES = ['queue', 'environment', 'march', 'material', 'shadow', 'shade', 'rays', 'volume', 'resolve', 'read', 'encode', 'else'];
+const AHEAD = -15; // of nice values
 const MOST_RATIO = 1.5;
 const MOST_PICTURE_MS = 1000;
 const MOST_RESTARTS = 1;
@@ -64,6 +66,11 @@ async function waits(live, seconds) {
 }
 
 const daemon = await startDaemon();
+try {
+    os.setPriority(AHEAD); // the viewer has a machine of its own: it waits for no processor here
+} catch {
+    console.error('guests: without the right to go first, the viewer waits for a processor too');
+}
 await ask(daemon, 'POST', '/v1/scenes?id=viewed', { from: 'example:first-steps' });
 await ask(daemon, 'POST', '/v1/scenes?id=other', { from: 'example:snowman' });
 const children = Array.from({ length: 5500 }, (_, i) => ({ id: `n${i}`, type: 'sphere', visible: i === 0 }));
