@@ -3,6 +3,7 @@
 #include "command.h"
 
 #include <string.h>
+#include <sys/prctl.h>
 
 #include "huge_pages.h"
 #include "protocol/suggest.h"
@@ -164,6 +165,7 @@ int command_main(int argc, char **argv)
     }
     const struct command *command = command_find(name);
     if (command) {
+        prctl(PR_SET_NAME, "fieldcast"); /* of one that was started as /proc/self/exe it is `exe` */
         if (command->draws) {
             huge_pages_use(argv);
         }

@@ -28,6 +28,12 @@ test('it finds in its environment that malloc() asks for huge pages', () => {
     assert.ok(environment.some((each) => /^GLIBC_TUNABLES=(.*:)?glibc\.malloc\.hugetlb=\d/.test(each)), `${environment}`);
 });
 
+test('whoever lists processes reads the name of the program', () => {
+    for (const id of [daemon.pid, daemon.worker()]) {
+        assert.equal(fs.readFileSync(`/proc/${id}/comm`, 'utf8').trim(), 'fieldcast');
+    }
+});
+
 /** Moves the camera and a number until stop() is called. */
 function drag(live) {
     let going = true;
