@@ -68,11 +68,19 @@ export class Tabs {
         this.kindOf = new WeakMap(); // of a page that is in use
     }
 
+    /** Undefined: there is none. A tab that was closed since is none. */
+    takeFree(kind) {
+        const pages = (this.free.get(kind) ?? []).filter((page) => !page.isClosed());
+        const taken = pages.pop();
+        this.free.set(kind, pages);
+        return taken;
+    }
+
     /** A page without a document and without listeners. */
     async take({ width, height, theme, touch = false, coarse = false, whole = false, hints = false }) {
         const fixed = { touch, coarse, whole, hints };
         const kind = JSON.stringify(fixed);
-        const page = this.free.get(kind)?.pop() ?? (await openTab(this.browser, fixed));
+        const page = this.takeFree(kind) ?? (await openTab(this.browser, fixed));
         this.kindOf.set(page, kind);
         await page.setViewportSize({ width, height });
         await page.emulateMedia({ colorScheme: theme, reducedMotion: 'reduce' });
