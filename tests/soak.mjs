@@ -24,15 +24,19 @@ fs.mkdirSync(out, { recursive: true });
 const loops = Array.from({ length: Number(loopCount) }, () =>
     spawn('sh', ['-c', 'while :; do :; done'], { stdio: 'ignore' }),
 );
-const endLoops = () => loops.forEach((loop) => loop.kill('SIGKILL'));
-process.on('exit', endLoops);
+let round = null; // the runner's process
+const end = () => {
+    loops.forEach((loop) => loop.kill('SIGKILL'));
+    round?.kill('SIGTERM');
+};
+process.on('exit', end);
 for (const signal of ['SIGINT', 'SIGTERM']) {
     process.on(signal, () => process.exit(130));
 }
 
 const tally = new Map(); // suite: rounds, failures
 
-function count(line, round, text) {
+function count(line, number, text) {
     const [, mark, suite] = /^(ok|FAIL) +(\S+)/.exec(line) ?? [];
     if (!suite) {
         return;
@@ -42,26 +46,26 @@ function count(line, round, text) {
     sum.failed += mark === 'FAIL' ? 1 : 0;
     tally.set(suite, sum);
     if (mark === 'FAIL') {
-        fs.writeFileSync(path.join(out, `${suite.replace('/', '-')}-${round}.log`), text);
+        fs.writeFileSync(path.join(out, `${suite.replace('/', '-')}-${number}.log`), text);
     }
 }
 
 function runOnce() {
-    const child = spawn(process.execPath, [runner, build, ...words], { stdio: ['ignore', 'pipe', 'inherit'] });
+    round = spawn(process.execPath, [runner, build, ...words], { stdio: ['ignore', 'pipe', 'inherit'] });
     let text = '';
-    child.stdout.on('data', (chunk) => (text += chunk));
-    return new Promise((done) => child.on('close', () => done(text)));
+    round.stdout.on('data', (chunk) => (text += chunk));
+    return new Promise((done) => round.on('close', () => done(text)));
 }
 
-for (let round = 1; round <= Number(rounds); round += 1) {
+for (let number = 1; number <= Number(rounds); number += 1) {
     const text = await runOnce();
     for (const line of text.split('\n')) {
-        count(line, round, text);
+        count(line, number, text);
     }
-    console.log(`round ${round}: ${text.trimEnd().split('\n').pop()}`);
+    console.log(`round ${number}: ${text.trimEnd().split('\n').pop()}`);
 }
 for (const [suite, sum] of tally) {
     console.log(`${suite.padEnd(28)} ${sum.rounds} rounds, ${sum.failed} failed`);
     process.exitCode = sum.failed > 0 ? 1 : process.exitCode;
 }
-endLoops();
+end();
