@@ -239,8 +239,9 @@ static void stop(struct server *server)
     acceptor_destroy(server->acceptor);
     http_destroy(server->http);
     hub_stop(server->hub);
-    ws_destroy(server->ws);
+    ws_stop(server->ws);
     hub_destroy(server->hub);
+    ws_destroy(server->ws);
 }
 
 static void block_signals(sigset_t *set)

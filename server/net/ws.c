@@ -61,7 +61,7 @@ struct ws {
     bool running;
     atomic_bool stopping, draining, kicked;
     atomic_int count;
-    pthread_mutex_t lock; /* guards `adopted` */
+    pthread_mutex_t lock; /* guards `adopted`, and `context` from threads that ring */
     struct link *adopted;
     /* The service thread's. */
     struct link *links, *adopting;
@@ -78,11 +78,16 @@ static void link_destroy(struct link *link)
     free(link);
 }
 
+/* Late, perhaps: whoever rings has let go of the hub's lock. */
 static void ring(void *data)
 {
-    const struct ws *ws = data;
+    struct ws *ws = data;
 
-    lws_cancel_service(ws->context);
+    pthread_mutex_lock(&ws->lock);
+    if (ws->context) {
+        lws_cancel_service(ws->context);
+    }
+    pthread_mutex_unlock(&ws->lock);
 }
 
 /* Any thread, mostly under the hub's lock. */
@@ -557,7 +562,16 @@ void ws_drain(struct ws *ws, int wait_ms)
     } while (ws_count(ws) > 0 && clock_ms() < end);
 }
 
-void ws_destroy(struct ws *ws)
+static struct lws_context *take_context(struct ws *ws)
+{
+    pthread_mutex_lock(&ws->lock);
+    struct lws_context *context = ws->context;
+    ws->context = NULL;
+    pthread_mutex_unlock(&ws->lock);
+    return context;
+}
+
+void ws_stop(struct ws *ws)
 {
     if (!ws) {
         return;
@@ -566,10 +580,20 @@ void ws_destroy(struct ws *ws)
     if (ws->running) {
         lws_cancel_service(ws->context);
         pthread_join(ws->thread, NULL);
+        ws->running = false;
     }
-    if (ws->context) {
-        lws_context_destroy(ws->context);
+    struct lws_context *context = take_context(ws);
+    if (context) {
+        lws_context_destroy(context);
     }
+}
+
+void ws_destroy(struct ws *ws)
+{
+    if (!ws) {
+        return;
+    }
+    ws_stop(ws);
     while (ws->adopted) {
         struct link *link = ws->adopted;
 

@@ -61,6 +61,9 @@ void ws_adopt(struct ws *ws, int fd, const struct http_head *head, const char *s
 int ws_count(const struct ws *ws);
 /* Says bye to all clients and waits at most `wait_ms` until they have left. */
 void ws_drain(struct ws *ws, int wait_ms);
+/* Closes what is open and ends the thread. Threads that use sessions may still wake connections. */
+void ws_stop(struct ws *ws);
+/* When those have ended too. */
 void ws_destroy(struct ws *ws);
 
 #endif

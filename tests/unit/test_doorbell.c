@@ -5,11 +5,15 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
 #include "server/doorbell.h"
 #include "server/live/hub.h"
+#include "server/metrics.h"
+#include "server/net/ws.h"
 
 enum { BELLS = 9 };
 
@@ -127,6 +131,32 @@ static void the_lock_of_the_hub_holds_them(void **state)
     pthread_mutex_destroy(&hub.lock);
 }
 
+static void pass(struct hub *hub)
+{
+    (void)hub;
+}
+
+/* Under the hub's lock a thread wakes a connection; the server stops before it has let go. */
+static void one_rings_after_the_end(void **state)
+{
+    struct metrics metrics = {0};
+    const struct ws_app app = {.metrics = &metrics, .lock = pass, .unlock = pass};
+    const struct http_head head = {0};
+    struct error err = {0};
+    struct ws *ws = ws_create(&app, &err);
+    int ends[2];
+
+    (void)state;
+    assert_non_null(ws);
+    assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), 0);
+    doorbells_hold();
+    ws_adopt(ws, ends[0], &head, "scene");
+    ws_stop(ws);
+    doorbells_release();
+    ws_destroy(ws);
+    close(ends[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -136,6 +166,7 @@ int main(void)
         cmocka_unit_test_setup(rings_on, silence),
         cmocka_unit_test_setup(other_threads_do_not_wait, silence),
         cmocka_unit_test_setup(the_lock_of_the_hub_holds_them, silence),
+        cmocka_unit_test_setup(one_rings_after_the_end, silence),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
