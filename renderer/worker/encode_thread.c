@@ -217,7 +217,7 @@ static bool start_threads(struct encode_thread *encode_thread)
 {
     pthread_t *threads = encode_thread->threads;
 
-    slice_short(); /* it waits for pictures, and drawing for nothing */
+    slice_short(); /* it encodes a picture and waits for the next; drawing never waits */
     const bool urgent =
         pthread_create(&threads[LANE_URGENT], NULL, serve_urgent, encode_thread) == 0;
     slice_normal();

@@ -233,7 +233,7 @@ int worker_run(int fd, const struct worker_params *params)
     struct error err = {0};
 
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    slice_normal(); /* what the front is, drawing is not */
+    slice_normal(); /* drawing computes; the front that started it has short ones */
     crash_watch();
     confine_privileges();
     if (params->confine != CONFINE_OFF) {

@@ -2,7 +2,7 @@
 /* The value of the output that is shown, at the pixel under the pointer: one pixel of the same
  * picture that REST gives. Where it is asked for, also the node, the distance and the place there, at
  * once from the guide of the picture. */
-import { useEffect, useState } from "react";
+import { useCallback, useEffect, useState } from "react";
 import { distanceAt, surfaceAt } from "../../model/distances.ts";
 import { nodeLabel } from "../../model/document.ts";
 import { nodeAt, shownGuide } from "../../model/guide.ts";
@@ -134,16 +134,15 @@ export default function Probe() {
     /* What is isolated is drawn for this page alone; REST draws the whole scene. */
     const isolated = useView((view) => view.isolated.length > 0);
     const [element, setElement] = useState<Element | null>(null);
+    const find = useCallback(
+        (own: Element | null) =>
+            setElement(own?.closest(".view")?.querySelector(".view-picture") ?? null),
+        [],
+    );
     const place = usePlace(element);
     const values = useValues((aov !== COLOR || probing) && !isolated, element, place);
     return (
-        <div
-            className="outputs-probe"
-            ref={(place) =>
-                setElement(place?.closest(".view")?.querySelector(".view-picture") ?? null)
-            }
-            data-testid="probe"
-        >
+        <div className="outputs-probe" ref={find} data-testid="probe">
             {values && (
                 <output className="glass outputs-value" aria-label={t("output.value")}>
                     {values.map(number).join("  ")}
