@@ -7,7 +7,8 @@
 
 static _Thread_local volatile sig_atomic_t thread_work;
 
-/* A fault comes again when this returns, and then ends the process. */
+/* Stays installed until a thread without work crashes: of two that crash at the same time, neither
+ * may end the process by its signal while the other tells its work. */
 static void on_crash(int number, siginfo_t *info, void *context)
 {
     const int work = thread_work;
@@ -16,14 +17,14 @@ static void on_crash(int number, siginfo_t *info, void *context)
     if (info->si_code > 0 && work != CRASH_ANYWHERE) {
         _exit(CRASH_STATUS + work);
     }
-    raise(number);
+    signal(number, SIG_DFL);
+    raise(number); /* delivered when this returns */
 }
 
 void crash_watch(void)
 {
     static const int numbers[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE};
-    const struct sigaction watch = {.sa_sigaction = on_crash,
-                                    .sa_flags = SA_SIGINFO | (int)SA_RESETHAND};
+    const struct sigaction watch = {.sa_sigaction = on_crash, .sa_flags = SA_SIGINFO};
 
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         struct sigaction old;

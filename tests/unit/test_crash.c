@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What a process was at when it crashed, from its exit status: also where the thread that crashed
  * is one that the engine started for a picture. */
+#include <pthread.h>
 #include <sched.h>
 #include <setjmp.h>
 #include <signal.h>
@@ -16,7 +17,7 @@
 #include "renderer/crash.h"
 #include "tests/support/drawing.h"
 
-enum { THREADS = 2, SIDE = 128, WHOLE = 7 };
+enum { THREADS = 2, SIDE = 128, WHOLE = 7, AT_ONCE = 8, ROUNDS = 200 };
 
 static atomic_bool helpers_crash;
 
@@ -35,6 +36,27 @@ int sched_setaffinity(pid_t pid, size_t size, const cpu_set_t *set)
 static void trap(void)
 {
     __builtin_trap();
+}
+
+static void *trap_with_the_others(void *start)
+{
+    crash_thread(CRASH_COMPILING);
+    pthread_barrier_wait(start);
+    __builtin_trap();
+}
+
+static void trap_at_once(void)
+{
+    pthread_barrier_t start;
+    pthread_t thread;
+
+    pthread_barrier_init(&start, NULL, AT_ONCE);
+    for (int i = 1; i < AT_ONCE; i++) {
+        if (pthread_create(&thread, NULL, trap_with_the_others, &start) != 0) {
+            _exit(1);
+        }
+    }
+    trap_with_the_others(&start);
 }
 
 static void draw(void)
@@ -79,6 +101,15 @@ static void a_thread_tells_its_work(void **state)
     assert_int_equal(crash_of(WHOLE), CRASH_ANYWHERE);
 }
 
+/* Two threads may compile the same code. */
+static void threads_that_crash_at_once_tell_it_too(void **state)
+{
+    (void)state;
+    for (int i = 0; i < ROUNDS; i++) {
+        assert_int_equal(crash_of(status_of(CRASH_COMPILING, trap_at_once)), CRASH_COMPILING);
+    }
+}
+
 static void the_engines_threads_tell_that_of_who_draws(void **state)
 {
     (void)state;
@@ -92,6 +123,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_thread_tells_its_work),
+        cmocka_unit_test(threads_that_crash_at_once_tell_it_too),
         cmocka_unit_test(the_engines_threads_tell_that_of_who_draws),
     };
 
