@@ -24,6 +24,7 @@ struct operation_kind {
     const struct node_type *type;
     void (*function)(void), (*share)(void), (*cell)(void);
     double (*reach)(const double *n);
+    int partial;                    /* FIELD_LOOP: sdf_domain.partial */
     const struct engine_code *code; /* FIELD_SHAPE: NULL, or a user's, instead of `function` */
 };
 

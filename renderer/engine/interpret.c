@@ -191,7 +191,7 @@ static size_t run_loop(struct machine *v, const struct operation *in, size_t at)
     open->before = v->m;
     open->left = spmd_cell_count(c, v->m, open->first, open->last);
     v->d[in->a] = vf_all(FIELD_FAR);
-    v->loose[in->a] = vf_zero;
+    v->loose[in->a] = vf_all(kind->partial ? c->own[kind->partial] * (float)FIELD_FAR : 0.0f);
     if (v->mixtures) {
         spmd_mixture_far(c, v->m, v->mixtures[in->a]);
     }

@@ -98,6 +98,7 @@ static bool make_kind(const struct engine_program *program, struct operation_kin
         return true;
     }
     out->reach = in->op == FIELD_COMBINE ? in->sdf->reach : NULL;
+    out->partial = in->op == FIELD_LOOP ? in->sdf->domain->partial : 0;
     if (first_kernel(in, &kernel)) {
         out->function = find(width, in, kernel);
         out->share = kernel == KERNEL_COMBINE ? find(width, in, KERNEL_SHARE)

@@ -10,8 +10,8 @@
  * where their count is even. On each axis by itself, a part of the child at offset v of its box's
  * centre is nearest in the copy round(x - v / spacing), clamped to the limit, where
  * x = (p - centre) / spacing. As v lies in the box, looking at round(x - reach) to round(x + reach)
- * misses none, reach being half the box by the spacing. */
-enum { SPACING = 0, REPEAT_LIMIT = 4, CENTRE = 8, CELL_REACH = 12 };
+ * misses none, reach being half the box by the spacing. PARTIAL is 1 where they are too many. */
+enum { SPACING = 0, REPEAT_LIMIT = 4, CENTRE = 8, CELL_REACH = 12, PARTIAL = 15 };
 
 #define REPEAT_ENDLESS 1048576.0 /* copies to each side; a float still holds k exactly */
 
@@ -35,6 +35,7 @@ static void limit_cells(double *n)
             most = axis_cells(n, i) > axis_cells(n, most) ? i : most;
         }
         n[CELL_REACH + most] = (axis_cells(n, most) - 2) / 2.0;
+        n[PARTIAL] = 1;
     }
 }
 
@@ -42,6 +43,7 @@ static void repeat_prepare(const double *params, const struct bounds *child, dou
                            double *out_n)
 {
     (void)scale;
+    out_n[PARTIAL] = 0;
     for (int i = 0; i < 3; i++) {
         const double spacing = params[i], count = params[3 + i];
         const double half = (child->high[i] - child->low[i]) / 2;
@@ -51,6 +53,7 @@ static void repeat_prepare(const double *params, const struct bounds *child, dou
         out_n[CENTRE + i] = isfinite(half) ? child->low[i] + half : 0;
         const double reach = isfinite(half) || count > 0 ? half / spacing : 1;
         out_n[CELL_REACH + i] = repeated ? fmin(reach, SDF_REPEAT_CELLS_MAX) : 0;
+        out_n[PARTIAL] = count < 0 && !isfinite(half) ? 1 : out_n[PARTIAL];
     }
     limit_cells(out_n);
 }
@@ -210,7 +213,8 @@ static const struct sdf_domain repeat = {.vec4s = 4,
                                          .box = repeat_box,
                                          .range = repeat_range,
                                          .cell = repeat_cell,
-                                         .cells = repeat_cells};
+                                         .cells = repeat_cells,
+                                         .partial = PARTIAL};
 static const struct sdf_domain repeat_polar = {.vec4s = 2,
                                                .prepare = polar_prepare,
                                                .box = polar_box,

@@ -52,6 +52,9 @@ struct sdf_domain {
     void (*range)(const double p[3], const double *n, double out_first[3], double out_last[3]);
     void (*cell)(const double p[3], const double cell[3], const double *n, double out[3]);
     int (*cells)(const double *n);
+    /* Which number is 1 where more cells matter than are looked at, so that the distance jumps from
+     * point to point; 0: none. */
+    int partial;
 };
 
 struct sdf {

@@ -18,8 +18,8 @@
 #include "tests/support/json_text.h"
 #include "tests/support/random_scene.h"
 
-enum { OPERATION_SCENES = 24, TYPE_SCENES = 6, EQUATION_SCENES = 48, OPERATIONS_MAX = 64 };
-enum { CLUSTERS = 12, CLUSTER = 32, POINTS = CLUSTERS * CLUSTER };
+enum { OPERATION_SCENES = 24, TYPE_SCENES = 6, EQUATION_SCENES = 48, COPY_SCENES = 40 };
+enum { OPERATIONS_MAX = 64, CLUSTERS = 12, CLUSTER = 32, POINTS = CLUSTERS * CLUSTER };
 #define SIZE 2.5
 
 /* An operation with one of its kernels; `choice` NULL: it has none. */
@@ -128,13 +128,12 @@ static void compare(const struct field *field, const struct scene *scene, struct
     }
 }
 
-static void look_at(struct random *random, struct operation *operation,
-                    const struct node_type *type)
+/* Takes the scene. */
+static void look_at_scene(struct random *random, struct scene *scene, struct operation *sums)
 {
     static const float halves[] = {0.7f, 0.15f, 0.03f};
     static float points[POINTS][3];
     struct error err = {0};
-    struct scene *scene = scene_of(random, operation, type);
     struct field *field = field_compile(scene, &err);
 
     if (!field) {
@@ -142,10 +141,16 @@ static void look_at(struct random *random, struct operation *operation,
     }
     for (size_t i = 0; i < sizeof halves / sizeof halves[0]; i++) {
         choose_points(random, halves[i], points);
-        compare(field, scene, operation, (const float(*)[3])points, halves[i]);
+        compare(field, scene, sums, (const float(*)[3])points, halves[i]);
     }
     field_unref(field);
     scene_destroy(scene);
+}
+
+static void look_at(struct random *random, struct operation *operation,
+                    const struct node_type *type)
+{
+    look_at_scene(random, scene_of(random, operation, type), operation);
 }
 
 /* Whether it stops to feel an operand that is far away. */
@@ -208,10 +213,45 @@ static void every_type_keeps_its_bits(void **state)
     assert_true(ran < whole);
 }
 
+/* Copies of which only the nearest are looked at: too many reach to each point, or each is
+ * endless. Their distance jumps from point to point. */
+static struct scene *scene_of_copies(struct random *random, bool endless)
+{
+    struct error err = {0};
+    char text[1024];
+
+    snprintf(text, sizeof text,
+             "{'format':'fieldcast/1','root':{'type':'union','children':[{'type':'repeat','params':"
+             "{'count':[7,7,7],'spacing':[1,1,1]},'children':[{'type':'sphere','params':"
+             "{'radius':0.1}}]},{'type':'repeat','params':%s,'children':[{'type':'%s','transform':{"
+             "'scale':[0.2,0.2,%d],'rotation':[%.3f,%.3f,0]}}]}]}}",
+             endless ? "{'spacing':[1.5,0.8,0.7],'count':[2,-1,3]}"
+                     : "{'spacing':[0.9,0.9,0.9],'count':[-1,-1,-1]}",
+             endless ? "ellipse" : "box", endless ? 1 : 9, random_between(random, 0, 1.5),
+             random_between(random, 0, 1.5));
+    struct scene *scene = json_text_scene(text, &err);
+    if (!scene) {
+        fail_msg("%s: %s", err.place, err.message);
+    }
+    return scene;
+}
+
+static void copies_that_are_left_out_keep_the_bits(void **state)
+{
+    struct operation sums = {0};
+    struct random random = {.state = 3};
+
+    (void)state;
+    for (int i = 0; i < COPY_SCENES; i++) {
+        look_at_scene(&random, scene_of_copies(&random, i % 2), &sums);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_operation_keeps_its_bits),
-                                       cmocka_unit_test(every_type_keeps_its_bits)};
+                                       cmocka_unit_test(every_type_keeps_its_bits),
+                                       cmocka_unit_test(copies_that_are_left_out_keep_the_bits)};
 
     return cmocka_run_group_tests_name("pruning", tests, NULL, NULL);
 }
