@@ -13,6 +13,7 @@
 #define WORN_TAPE 24           /* if its tape is as long as this */
 #define CELL_LIMIT (1 << 20)   /* with more cubes, */
 #define TAPES_LIMIT (1 << 26)  /* or words of tapes, of all threads, these are made anew */
+#define TAPE_STEPS 128         /* the least tape that has room to grow is twice as long */
 #define WASTED_LIMIT (1 << 21) /* words of tapes that are not used, which are let be */
 #define BOUND_NEAR 2           /* a cube is far from surfaces that are so many of its halves away */
 #define BOUND_TAPE 96          /* operations that take longer than more steps by a bound */
@@ -35,6 +36,18 @@ static struct cell *cell_add(struct cells *cells)
     return &cells->at[cells->count++];
 }
 
+/* What a tape of so many words takes. Long ones have room to grow after an edit. */
+static size_t tape_words(size_t count)
+{
+    size_t step = 1;
+
+    while (count > 2 * TAPE_STEPS * step) {
+        step *= 2;
+    }
+    return (count + step - 1) / step * step;
+}
+
+/* For that many words. */
 static void tape_room(struct cells *cells, size_t count)
 {
     if (cells->room - cells->used < count) {
@@ -55,17 +68,17 @@ static uint32_t add_whole_tape(struct cells *cells, size_t count)
     return (uint32_t)at;
 }
 
-/* The index of so many, 0. */
+/* The index of those of a tape of so many words, all 0. */
 static uint32_t drops_add(struct cells *cells, size_t count)
 {
-    const size_t at = cells->drops_used;
+    const size_t at = cells->drops_used, words = tape_words(count);
 
-    if (cells->drops_room - at < count) {
-        cells->drops_room = 2 * (cells->drops_room + count);
+    if (cells->drops_room - at < words) {
+        cells->drops_room = 2 * (cells->drops_room + words);
         cells->drops = memory_resize(cells->drops, cells->drops_room, sizeof *cells->drops);
     }
     memset(cells->drops + at, 0, count * sizeof *cells->drops);
-    cells->drops_used += count;
+    cells->drops_used += words;
     return (uint32_t)at;
 }
 
@@ -188,7 +201,7 @@ static void make_tape(struct lanes *c, const struct cell *parent, int number, st
     if (!(parent->dropping >> number & 0x101)) {
         return; /* it has its parent's */
     }
-    tape_room(cells, parent->count);
+    tape_room(cells, tape_words(parent->count));
     const uint32_t *from = cell_tape(cells, parent);
     const uint16_t *drops = cell_drops(cells, parent);
     uint32_t *const to = cells->tapes + cells->used;
@@ -236,7 +249,7 @@ static void make_tape(struct lanes *c, const struct cell *parent, int number, st
     child->owns = true;
     child->count = (uint32_t)(to + parent->count - at);
     memmove(to, at, child->count * sizeof *at);
-    cells->used += child->count;
+    cells->used += tape_words(child->count);
 }
 
 /* The same, made by the first thread that comes there. */

@@ -45,16 +45,16 @@ static bool has_changed(const struct renewal *r, const struct cell *cell)
     return any;
 }
 
-/* A cube as it was: its tape, whether that is another one now, and whether bound_at() may come
- * there by another way. */
+/* A cube as it was: its tape, whether that is another one now, whether its words are written over,
+ * and whether bound_at() may come there by another way. */
 struct past {
-    bool other, led;
+    bool other, lost, led;
     uint32_t count;
 };
 
 /* The cube's tape of its parent's; false: it is the one that it had. `same`: as far as that goes
- * by its parent. */
-static bool make_again(struct renewal *r, int32_t at, bool same)
+ * by its parent. `*lost`: of its parent's words, then of its own. */
+static bool make_again(struct renewal *r, int32_t at, bool same, bool *lost)
 {
     struct cells *cells = r->c->cells;
     struct cell *cell = &cells->at[at];
@@ -62,6 +62,7 @@ static bool make_again(struct renewal *r, int32_t at, bool same)
     const struct cell before = *cell;
     const size_t used = cells->used;
 
+    *lost = *lost && !before.owns && !before.words; /* they were its parent's */
     if (same) {
         return false;
     }
@@ -73,22 +74,26 @@ static bool make_again(struct renewal *r, int32_t at, bool same)
         return true;
     }
     make_tape(r->c, parent, (int)(at - parent->children), cell);
-    if (cell->count == before.count && memcmp(cell_tape(cells, cell), cell_tape(cells, &before),
-                                              cell->count * sizeof *cells->tapes) == 0) {
+    if (!*lost && cell->count == before.count &&
+        memcmp(cell_tape(cells, cell), cell_tape(cells, &before),
+               cell->count * sizeof *cells->tapes) == 0) {
         cells->used = used;
         cell->tape = before.tape;
         cell->words = before.words;
         cell->owns = before.owns;
         return false;
     }
-    if (cell->owns && before.owns && cell->count < before.count) { /* in the same place */
+    const size_t had = before.owns ? tape_words(before.count) : 0;
+    const size_t takes = tape_words(cell->count);
+    if (cell->owns && takes <= had) { /* in the same place */
         memcpy(cells->tapes + before.tape, cells->tapes + cell->tape,
                cell->count * sizeof *cells->tapes);
         cells->used = used;
         cell->tape = before.tape;
-        cells->wasted += before.count - cell->count;
+        cells->wasted += had - takes;
+        *lost = true;
     } else {
-        cells->wasted += before.owns ? before.count : 0;
+        cells->wasted += had;
     }
     return true;
 }
@@ -125,7 +130,9 @@ static void renew_cell(struct renewal *r, int32_t at, const struct cell *before,
 {
     struct cells *cells = r->c->cells;
     struct cell *cell = &cells->at[at];
-    const bool other = make_again(r, at, same), run = cell->made && (other || has_changed(r, cell));
+    bool lost = parent.lost;
+    const bool other = make_again(r, at, same, &lost);
+    const bool run = cell->made && (other || has_changed(r, cell));
     const struct answers now = answers_of(cell, cells->at[cell->parent].count);
     const bool led = parent.led || answers_differ(now, answers_of(before, parent.count));
 
@@ -138,8 +145,11 @@ static void renew_cell(struct renewal *r, int32_t at, const struct cell *before,
     if (cell->children && run && cell->count > GROWN * before->count) {
         forget_below(cells, at);
         cell->children = 0;
+    }
+    if (!cell->children && run) {
+        cell->trunk = NULL; /* what is shared was of other numbers */
     } else if (cell->children && run) {
-        renew_children(r, at, (struct past){other, led, before->count});
+        renew_children(r, at, (struct past){other, lost, led, before->count});
     } else if (cell->children && led) {
         tell_below(r, at);
     }
@@ -184,7 +194,9 @@ static void renew_children(struct renewal *r, int32_t at, struct past past)
     struct cell *cell = &cells->at[at], before[8];
 
     memcpy(before, cells->at + cell->children, sizeof before);
-    if (cell->count > past.count) {
+    if (cell->count > past.count &&
+        (cell->trunk || tape_words(cell->count) > tape_words(past.count))) {
+        cells->wasted += cell->trunk ? 0 : tape_words(past.count) / 2; /* a word for two */
         own_drops(cells, cell);
     }
     const uint16_t changed = look_again(r, at);
@@ -210,12 +222,12 @@ static void compact(struct cells *cells)
         if (parent && cell->tape == before[cell->parent] && cell->words == parent->words) {
             cell->tape = parent->tape;
         } else if (!cell->words) {
-            tape_room(cells, cell->count);
+            tape_room(cells, tape_words(cell->count));
             memcpy(cells->tapes + cells->used, old.tapes + cell->tape,
                    cell->count * sizeof *cells->tapes);
             cell->tape = (uint32_t)cells->used;
             cell->owns = true;
-            cells->used += cell->count;
+            cells->used += tape_words(cell->count);
         }
         if (cell->children && !cell->trunk) {
             const uint32_t drops = cell->drops;
@@ -266,9 +278,8 @@ static void renew_cells(struct renewal *r)
     const struct past past = renew_root(r);
     if (cells->at[0].children) {
         renew_children(r, 0, past);
-    }
-    for (size_t i = 0; i < cells->count; i++) { /* what is shared was of other numbers */
-        cells->at[i].trunk = cells->at[i].children ? cells->at[i].trunk : NULL;
+    } else {
+        cells->at[0].trunk = NULL;
     }
 }
 
