@@ -6,10 +6,12 @@
 #include <string.h>
 
 #include "protocol/memory.h"
+#include "worker_protocol.h"
 
 struct turn {
     struct turn *next;
     char *account;
+    bool newcomers; /* have as much as all others together */
     int pictures;
     uint64_t us;              /* drawing time, weighed by how urgent it was */
     uint64_t steps;           /* ever */
@@ -37,6 +39,7 @@ struct turn *turns_join(struct turns *turns, const char *account)
     if (!*at) {
         *at = memory_alloc(1, sizeof **at);
         (*at)->account = memory_text(account);
+        (*at)->newcomers = strcmp(account, ACCOUNT_NEWCOMERS) == 0;
         turns->accounts++;
     }
     (*at)->pictures++;
@@ -167,7 +170,9 @@ void *turns_choose(struct turns *turns)
 
 void turns_charge(struct turns *turns, struct turn *turn, int priority, uint64_t us)
 {
-    turn->us += us * costs[clamped(priority)];
+    const uint64_t others = turn->newcomers ? count_offers(turns) - 1 : 1;
+
+    turn->us += us * costs[clamped(priority)] / (others > 1 ? others : 1);
     turn->steps++;
     turns->last = turn;
 }

@@ -3,7 +3,9 @@
  * least goes first, so that no client waits for another's pictures. Start-time fair queueing (Goyal
  * et al. 1996) by steps of a few milliseconds. Who had nothing to draw for a while begins at most
  * TURNS_CREDIT_US behind the others, so that the pictures of a client that asks for less than its
- * share are drawn at once, not between the tiles of others.
+ * share are drawn at once, not between the tiles of others. Newcomers share an account
+ * (ACCOUNT_NEWCOMERS) that may have as much as all others together: however many come at once,
+ * those who are there keep half, and however many are there, who comes sees something soon.
  *
  * What is urgent (a low priority number) may run ahead by TURNS_AHEAD_US for each number, all
  * accounts together, and what is not costs its account more: for the long run urgent pictures get

@@ -100,6 +100,9 @@ struct packet_pace {
     double pace; /* how slow this machine compiles, as measured so far */
 };
 
+/* The account that has as much as all others together. No scene or session can have this name. */
+#define ACCOUNT_NEWCOMERS "*newcomers"
+
 /* Pictures run tile by tile. Accounts take turns by drawing time (turns.h); of one account the
  * lowest priority number goes first, so a viewer's frame interrupts a long picture. */
 struct packet_render {

@@ -9,14 +9,11 @@
 #include "poster.h"
 #include "protocol/messages.h"
 #include "render_queue.h"
+#include "renderer/worker/worker.h"
 #include "room_state.h"
 #include "server/clock.h"
 #include "session.h"
 #include "stream_size.h"
-
-/* Who has not acknowledged a frame yet shares one client's drawing time with all others of these:
- * however many come at once, those who are there keep most of it. */
-#define NEWCOMERS "newcomers"
 
 /* How each picture is drawn and encoded. */
 struct stage_rule {
@@ -451,7 +448,8 @@ static void ask(struct session *session, enum stream_stage stage)
     struct render_order order = {
         .room = session->room,
         .priority = stage_rules[stage].priority,
-        .account = stream->reads ? session->id : NEWCOMERS,
+        .account =
+            stream->reads ? session->id : ACCOUNT_NEWCOMERS, /* until a frame is acknowledged */
         .on_done = on_picture,
         .on_more = on_round,
         .data = session,

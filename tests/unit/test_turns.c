@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "renderer/worker/turns.h"
+#include "renderer/worker/worker_protocol.h"
 
 enum { MOVING, STILL, LOSSLESS, IMAGE };
 
@@ -189,6 +190,31 @@ static void many_readers(void **state)
     finish();
 }
 
+/* Newcomers get as much as all others together, who are equal among themselves. */
+static void newcomers_have_half(void **state)
+{
+    enum { MOST = 40, STEPS = 4000 };
+    const int counts[] = {1, 2, MOST};
+
+    (void)state;
+    for (int k = 0; k < (int)(sizeof counts / sizeof *counts); k++) {
+        struct picture all[MOST + 1] = {
+            {.account = ACCOUNT_NEWCOMERS, .priority = MOVING, .step_us = 8000}};
+        char accounts[MOST][16];
+
+        for (int i = 0; i < counts[k]; i++) {
+            snprintf(accounts[i], sizeof accounts[i], "%d", i);
+            all[i + 1] =
+                (struct picture){.account = accounts[i], .priority = MOVING, .step_us = 8000};
+        }
+        run(all, counts[k] + 1, STEPS);
+        assert_in_range(all[0].steps, 0.45 * STEPS, 0.55 * STEPS);
+        for (int i = 1; i <= counts[k]; i++) {
+            assert_in_range(all[i].steps * counts[k], 0.4 * STEPS, 0.6 * STEPS);
+        }
+    }
+}
+
 /* What is not urgent waits for as much drawing beside ten as beside one. */
 static void image_beside_readers(void **state)
 {
@@ -339,6 +365,7 @@ int main(void)
         cmocka_unit_test(small_first),
         cmocka_unit_test(nobody_starves),
         cmocka_unit_test(many_readers),
+        cmocka_unit_test(newcomers_have_half),
         cmocka_unit_test(image_beside_readers),
         cmocka_unit_test(oldest_within_account),
         cmocka_unit_test(little_credit),
