@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* One picture, tile by tile, handed out by rows of tiles. Holds a snapshot of the scene, so nothing
  * later reaches it. */
+#include <math.h>
 #include <stdlib.h>
 #include <time.h>
 
@@ -468,6 +469,14 @@ uint64_t job_structure_with_code(const struct job *job)
 struct picture_rounds job_rounds(const struct job *job)
 {
     return job->begun ? draw_rounds(&job->picture) : (struct picture_rounds){0, 1};
+}
+
+double job_drawn_part(const struct job *job)
+{
+    const double pixels = (double)job->region.width * job->region.height;
+
+    /* A row that was begun again may have been copied twice. */
+    return 1 - fmin((double)job->picture.copied, pixels) / pixels;
 }
 
 struct job_times job_times(const struct job *job)

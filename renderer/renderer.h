@@ -285,6 +285,8 @@ struct job_times {
     uint32_t us[FRAME_STAGES];
 };
 struct job_times job_times(const struct job *job);
+/* Of its pixels, 0 to 1: the others are those of the picture before it. */
+double job_drawn_part(const struct job *job);
 struct picture_rounds job_rounds(const struct job *job);
 void job_destroy(struct job *job); /* at any time: cancels */
 

@@ -92,6 +92,7 @@ struct draw_picture {
     GLuint kept, kept_counted; /* 0: there is one round */
     GLuint keeper;             /* the framebuffer by which they are copied */
     int left, top;             /* of the region */
+    uint64_t copied;           /* pixels that the last picture had */
 };
 
 /* `tile_side`: how many pixels a tile is wide and high, a multiple of 8; 0: what is good for the

@@ -149,7 +149,11 @@ static bool draw_samples(struct draw *draw, struct draw_picture *picture,
         }
     }
     memset(slot->stage_us, 0, sizeof slot->stage_us);
-    return go_on(draw, picture, scene, index, err);
+    const uint64_t drawn = draw->pixels;
+    const bool ok = go_on(draw, picture, scene, index, err);
+    picture->copied += (uint64_t)slot->tile.width * (uint64_t)slot->tile.height;
+    picture->copied -= draw->pixels - drawn;
+    return ok;
 }
 
 static bool wait(struct draw *draw, struct draw_picture *picture, int slot, struct error *err)

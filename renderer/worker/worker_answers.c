@@ -130,6 +130,7 @@ void worker_send_frame(struct worker *w, const struct worker_job *job)
                                               .codec = encoding->packet.codec,
                                               .key = encoding->packet.key,
                                               .whole_bytes = (uint32_t)encoding->packet.whole_bytes,
+                                              .drawn_part = job->drawn_part,
                                               .times = job->times},
                                     .payload = encoding->bytes,
                                     .payload_length = encoding->length});

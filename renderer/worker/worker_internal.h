@@ -51,6 +51,7 @@ struct worker_job {
     uint64_t revision;
     int width, height;
     struct job_times times;
+    double drawn_part;
     struct picture_rounds rounds;
     struct worker_job *next; /* in order of arrival */
 };

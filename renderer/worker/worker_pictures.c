@@ -224,6 +224,7 @@ static void hand_rows_over(struct worker *w, struct worker_job *job)
 static void take_times(struct worker_job *job)
 {
     job->times = job_times(job->drawing);
+    job->drawn_part = job_drawn_part(job->drawing);
     job->rounds = job_rounds(job->drawing);
     job->times.us[FRAME_QUEUE] = (uint32_t)(job->begun_us - job->received_us);
 }

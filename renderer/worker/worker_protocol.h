@@ -154,6 +154,7 @@ struct packet_frame {
     enum codec codec;
     bool key;             /* it decodes without earlier ones */
     uint32_t whole_bytes; /* of the payload, the last ones: the file of the whole picture */
+    double drawn_part;    /* job_drawn_part() */
     struct job_times times;
 };
 

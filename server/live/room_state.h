@@ -13,6 +13,7 @@
 #include "protocol/limits.h"
 #include "protocol/scene.h"
 #include "server/net/send_queue.h"
+#include "stream_state.h"
 
 struct hub;
 struct session;
@@ -94,9 +95,9 @@ struct room {
     bool told_lost;             /* sessions know that the worker is gone */
     int deaths;                 /* workers lost while they drew this scene */
     struct render_demand fatal; /* its work; a finished picture of as much resets `deaths` */
-    double ns_per_pixel;    /* drawing time of moving pictures, over all sessions; 0: none yet */
-    int patience;           /* factor on the time that a tile may take */
-    struct error suspended; /* why it is not drawn until an edit; ERROR_NONE: it is drawn */
+    struct stream_rate rate;    /* over all sessions */
+    int patience;               /* factor on the time that a tile may take */
+    struct error suspended;     /* why it is not drawn until an edit; ERROR_NONE: it is drawn */
     struct last_good last_good;
     struct shared_buffer *poster; /* the last picture; NULL: none since the room was opened */
     bool poster_stored;

@@ -116,6 +116,9 @@ void stream_set_view(struct session *session, const struct message *message)
         render_request_finish(&view.picture);
         return;
     }
+    if (old && !id_set_equal(&old->picture.isolate, &view.picture.isolate)) {
+        stream_size_isolate(stream);
+    }
     stream->newest = old ? (stream->newest + 1) % STREAM_VIEWS : 0;
     render_request_finish(&stream->views[stream->newest].picture);
     stream->views[stream->newest] = view;
@@ -329,7 +332,7 @@ static void on_picture(void *data, const struct picture_answer *answer, const st
         return;
     }
     if (stream->job_stage == STREAM_MOVING) {
-        stream_size_learn(session);
+        stream_size_learn(session, answer->frame->drawn_part);
     }
     send_frame(session, answer);
     if (stream->stale && session->room->shown > stream->revision) {

@@ -11,6 +11,7 @@
 
 /* Side lengths of moving pictures, relative to the view. */
 static const double scales[] = {1, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125, 0.09375, 0.0625};
+static const double MOST = 0.5; /* of a picture */
 enum {
     SCALE_COUNT = sizeof scales / sizeof *scales,
     USUAL_STEPS = 5,      /* scales for all views; the others are for large ones */
@@ -29,12 +30,20 @@ static const struct preference_rule preference_rules[] = {
     [PREFER_SHARP] = {120, 2},
 };
 
-/* What is known of the scene, by this session or by others; 0: nothing. */
-static double ns_per_pixel(const struct session *session)
+/* Where what the view takes is counted. */
+static struct stream_rate *own_rate(struct stream *stream, const struct stream_view *view)
 {
-    const double own = session->stream->ns_per_pixel;
+    return view->picture.isolate.count > 0 ? &stream->isolated : &stream->rate;
+}
 
-    return own > 0 ? own : session->room->ns_per_pixel;
+/* What is known of the view, or of the whole scene, by this session or by others; 0: nothing. */
+static const struct stream_rate *rate_of(const struct session *session,
+                                         const struct stream_view *view)
+{
+    const struct stream_rate *own = own_rate(session->stream, view);
+    const struct stream_rate *whole = &session->stream->rate;
+
+    return own->all > 0 ? own : whole->all > 0 ? whole : &session->room->rate;
 }
 
 static double pixels_of(const struct stream_view *view, int step)
@@ -47,7 +56,10 @@ static double pixels_of(const struct stream_view *view, int step)
 
 static double predicted_ms(const struct session *session, const struct stream_view *view, int step)
 {
-    return ns_per_pixel(session) * pixels_of(view, step) * 1e-6;
+    const struct stream_rate *rate = rate_of(session, view);
+    const bool whole = step < session->stream->step || own_rate(session->stream, view)->all == 0;
+
+    return (whole ? fmax(rate->all, rate->whole) : rate->all) * pixels_of(view, step) * 1e-6;
 }
 
 static int last_step(const struct stream_view *view)
@@ -64,13 +76,22 @@ static bool is_too_large(const struct session *session, const struct stream_view
 {
     const double target_ms = preference_rules[view->preference].target_ms;
 
-    if (ns_per_pixel(session) == 0) { /* those who wait share the machine with this one */
+    if (rate_of(session, view)->all == 0) { /* those who wait share the machine with this one */
         const int sharing = 1 + render_queue_moving(session->hub->render_queue);
         return pixels_of(view, step) > (double)FIRST_PIXELS / sharing;
     }
     /* Only a clear gain makes it larger again, lest the size jumps to and fro. */
     return predicted_ms(session, view, step) >
            target_ms * (step < session->stream->step ? 0.8 : 1.1);
+}
+
+void stream_size_isolate(struct stream *stream)
+{
+    stream->isolated = (struct stream_rate){0};
+    stream->step = SCALE_COUNT - 1;
+    if (stream->job_rate == &stream->isolated) {
+        stream->job_rate = NULL;
+    }
 }
 
 void stream_size_choose(struct session *session, const struct stream_view *view)
@@ -81,6 +102,7 @@ void stream_size_choose(struct session *session, const struct stream_view *view)
         step++;
     }
     session->stream->step = step;
+    session->stream->job_rate = own_rate(session->stream, view);
 }
 
 /* The step of the picture between moving and still ones; the current one: none is worth while. */
@@ -114,12 +136,24 @@ static double mixed(double known, double took)
     return known > 0 ? known + 0.3 * (took - known) : took;
 }
 
-void stream_size_learn(struct session *session)
+static void learn(struct stream_rate *rate, double took, double drawn_part)
+{
+    rate->all = mixed(rate->all, took);
+    if (drawn_part > MOST) {
+        rate->whole = mixed(rate->whole, took / drawn_part);
+    }
+}
+
+void stream_size_learn(struct session *session, double drawn_part)
 {
     struct stream *stream = session->stream;
     const double took =
         (double)(clock_us() - stream->job_asked_us) * 1e3 / (double)stream->job_pixels;
 
-    stream->ns_per_pixel = mixed(stream->ns_per_pixel, took);
-    session->room->ns_per_pixel = mixed(session->room->ns_per_pixel, took);
+    if (stream->job_rate) {
+        learn(stream->job_rate, took, drawn_part);
+    }
+    if (stream->job_rate == &stream->rate) {
+        learn(&session->room->rate, took, drawn_part);
+    }
 }

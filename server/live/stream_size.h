@@ -8,6 +8,8 @@
 
 struct session;
 
+/* The view isolates other nodes than before: that takes another time, and all of it is drawn. */
+void stream_size_isolate(struct stream *stream);
 /* The size of moving pictures from now on. */
 void stream_size_choose(struct session *session, const struct stream_view *view);
 /* Whether a picture between moving and still ones is worth while. */
@@ -15,8 +17,8 @@ bool stream_size_has_larger(const struct session *session, const struct stream_v
 /* The side of the next picture of a stage, as a part of the view's. */
 double stream_size_scale(const struct session *session, const struct stream_view *view,
                          enum stream_stage stage);
-/* A moving picture has come. Waiting for others' pictures counts: who shares the machine gets
- * smaller pictures, not fewer. */
-void stream_size_learn(struct session *session);
+/* A moving picture has come, of which that part of its pixels was drawn. Waiting for others'
+ * pictures counts: who shares the machine gets smaller pictures, not fewer. */
+void stream_size_learn(struct session *session, double drawn_part);
 
 #endif

@@ -28,6 +28,12 @@ enum {
     STREAM_VIEWS = 8,       /* older views that a pick may refer to */
 };
 
+/* Nanoseconds for each pixel of moving pictures, as running means; 0: none was measured. */
+struct stream_rate {
+    double all;   /* also of pictures after an edit, most of which may be copied */
+    double whole; /* of those of which most was drawn, as all of one of another size is */
+};
+
 /* The pictures of a stage, of which the client keeps the last one. */
 struct stream_chain {
     uint32_t order; /* of the last one that was sent; 0: none */
@@ -75,8 +81,10 @@ struct stream {
         int64_t sent_ms;
     } flight[LIMIT_FRAMES_IN_FLIGHT];
 
-    int step;            /* index into the scales */
-    double ns_per_pixel; /* running mean over moving pictures; 0: none yet */
+    int step;                     /* index into the scales */
+    struct stream_rate rate;      /* of the whole scene */
+    struct stream_rate isolated;  /* of what is isolated now */
+    struct stream_rate *job_rate; /* the one that the order is counted in; NULL: none */
 };
 
 #endif

@@ -63,8 +63,10 @@ static double check(const struct pair *pair, const struct job_desc *desc, const 
 
     renderer_forget(forgetful);
     struct drawing want = drawing_outputs(forgetful, pair->forgotten, desc);
-    assert_int_equal(renderer_counters(forgetful).pixels, all);
+    /* On a slow machine a row may be begun again, and then more is drawn than there is. */
+    assert_true(renderer_counters(forgetful).pixels >= all);
     assert_same(&got, &want, ops);
+    assert_true(got.drawn_part * (double)pixels < (double)drawn + 0.5);
     drawing_finish(&got);
     drawing_finish(&want);
     return (double)drawn / (double)pixels;

@@ -91,6 +91,7 @@ struct drawing drawing_outputs(struct renderer *renderer, struct resident *resid
             }
         }
     }
+    drawing.drawn_part = job_drawn_part(job);
     job_destroy(job);
     return drawing;
 }

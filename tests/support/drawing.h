@@ -21,6 +21,7 @@ struct image drawing_of(struct resident *resident, const struct job_desc *desc, 
 /* All outputs that `desc` asks for, drawn at once; the others stay empty. */
 struct drawing {
     struct image of[AOV_COUNT];
+    double drawn_part; /* job_drawn_part() */
 };
 struct drawing drawing_outputs(struct renderer *renderer, struct resident *resident,
                                const struct job_desc *desc);

@@ -101,6 +101,7 @@ static void members_to_front(void **state)
     (void)state;
     sent.frame.rounds = (struct picture_rounds){4, 16};
     sent.frame.codec = CODEC_ZIP;
+    sent.frame.drawn_part = 0.25;
     for (int i = 0; i < FRAME_STAGES; i++) {
         sent.frame.times.us[i] = (uint32_t)i + 1;
     }
