@@ -3,6 +3,7 @@
 // what is there as the palette says; where nothing is let go, nothing happens.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { setTimeout as sleep } from 'node:timers/promises';
 import { ask, until } from '../support/daemon.mjs';
 import { carryTo, documentWhen, nodeIn, picture, row, settled, useStage } from './stage.mjs';
 
@@ -45,6 +46,25 @@ async function spotOf([x, y], depth = 1) {
     const box = await picture(page).boundingBox();
     const scale = box.height / 2 / Math.tan(Math.PI / 8) / (8 - depth);
     return { x: box.x + box.width / 2 + scale * x, y: box.y + box.height / 2 - scale * y };
+}
+
+/** Opens the library and carries a card to a point. */
+async function takeCard(name, point) {
+    await page.keyboard.press('Control+k');
+    await page.getByRole('combobox').fill('My library');
+    await page.locator('[data-entry="command-library.open"]').click();
+    const card = page.getByTestId('library').locator('.card').filter({ hasText: name });
+    await carryTo(page, card.locator('img'), point);
+}
+
+/** What the pointer points at is told in less time: the page has entries of the library later. */
+const LATE_MS = 800;
+
+async function delayEntries() {
+    await page.route(/\/v1\/library\/[^/]+$/, async (route) => {
+        await sleep(LATE_MS);
+        await route.continue();
+    });
 }
 
 /** Opens the palette and carries a tile to a point. */
@@ -135,19 +155,16 @@ test('what goes around others, and things of the library, land too', async () =>
     await when((d) => d.root.children[0].id === 'wall', 'the wall again');
     await settled(page);
 
-    const carryCard = async (name, words) => {
-        await page.keyboard.press('Control+k');
-        await page.getByRole('combobox').fill('My library');
-        await page.locator('[data-entry="command-library.open"]').click();
-        await carryTo(page, page.getByTestId('library').locator('.card').filter({ hasText: name }).locator('img'), at);
-        await landing().getByText(words).waitFor();
-        await page.mouse.up();
-    };
-    await carryCard('Post', 'Beside wall.');
+    await delayEntries();
+    await takeCard('Post', at);
+    await landing().getByText('Beside wall.').waitFor();
+    await page.mouse.up();
     const [, post] = (await when((d) => d.root.children[1].name === 'Post', 'the post')).root.children;
     close(post.transform.translation, [-1.2, 0.4, 1], 0.02);
     close(post.transform.rotation, [Math.PI / 2, 0, 0]);
     await settled(page);
-    await carryCard('Red', /^For /);
+    await takeCard('Red', at);
+    await landing().getByText(/^For /).waitFor();
+    await page.mouse.up();
     await when((d) => [d.root.children[0], d.root.children[1]].some(({ material }) => material === 'clay'), 'the material');
 });

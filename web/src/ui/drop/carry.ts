@@ -38,6 +38,12 @@ interface Outcome {
 /* What is carried: what would come of it. Null: nothing. */
 type Carried = (document: SceneDocument, schema: Schema, landing: Landing) => Outcome | null;
 
+/* What is at a spot. */
+interface Seen {
+    readonly landing: Landing | null;
+    readonly outcome: Outcome | null;
+}
+
 function carriedOffer({ stores }: Editor, offer: Offer): Carried {
     return (document, schema, { selection, ground }) => {
         const { way } = stores.view.getState().preferences;
@@ -149,7 +155,8 @@ class Carrying {
     readonly #mark: Mark;
     readonly #listening = new AbortController();
     readonly #onEnd: (outcome: Outcome | null) => void;
-    #carried: Carried | null = null;
+    /* An entry of the library is read meanwhile. */
+    readonly #carried: Promise<Carried>;
     #shown: { readonly spot: Spot; readonly outcome: Outcome | null } | null = null;
     /* Where the pointer is; null: not over the picture. */
     #last: Spot | null = null;
@@ -166,12 +173,8 @@ class Carrying {
         this.#onEnd = onEnd;
         this.#mark = new Mark(picture.parentElement ?? picture);
         this.#mark.hide();
-        carried.then(
-            (what) => {
-                this.#carried = what;
-            },
-            () => this.#end(null),
-        );
+        this.#carried = carried;
+        carried.catch(() => this.#end(null));
         const options = { signal: this.#listening.signal, capture: true };
         window.addEventListener("dragover", (event) => this.#over(event), options);
         window.addEventListener("drop", (event) => void this.#drop(event), options);
@@ -206,12 +209,25 @@ class Carrying {
         }
         this.#asking = true;
         for (let spot = this.#last; spot; spot = this.#next(spot)) {
-            const picked = await this.#editor.link.pick(spot.x, spot.y).catch(() => null);
-            if (picked !== null && this.#last !== null) {
-                this.#show(spot, picked);
+            const seen = await this.#ask(spot);
+            if (seen !== null && this.#last !== null) {
+                this.#show(spot, seen);
             }
         }
         this.#asking = false;
+    }
+
+    /* Null: there was no answer. */
+    async #ask(spot: Spot): Promise<Seen | null> {
+        const picking = this.#editor.link.pick(spot.x, spot.y);
+        const answers = await Promise.all([picking, this.#carried]).catch(() => null);
+        const { document, schema } = this.#editor.stores.document.getState();
+        if (answers === null || document === null) {
+            return null;
+        }
+        const [picked, carried] = answers;
+        const landing = this.#landingOf(spot, picked);
+        return { landing, outcome: landing && carried(document, schema, landing) };
     }
 
     #next(asked: Spot): Spot | null {
@@ -244,14 +260,7 @@ class Carrying {
         };
     }
 
-    #outcomeOf(landing: Landing | null): Outcome | null {
-        const { document, schema } = this.#editor.stores.document.getState();
-        return (document && landing && this.#carried?.(document, schema, landing)) ?? null;
-    }
-
-    #show(spot: Spot, picked: PickedMessage): void {
-        const landing = this.#landingOf(spot, picked);
-        const outcome = this.#outcomeOf(landing);
+    #show(spot: Spot, { landing, outcome }: Seen): void {
         this.#shown = { spot, outcome };
         if (!landing || !outcome) {
             this.#mark.hide();
@@ -292,8 +301,8 @@ class Carrying {
             this.#end(known.outcome);
             return;
         }
-        const picked = await this.#editor.link.pick(spot.x, spot.y).catch(() => null);
-        this.#end(picked && this.#outcomeOf(this.#landingOf(spot, picked)));
+        const seen = await this.#ask(spot);
+        this.#end(seen?.outcome ?? null);
     }
 
     #end(outcome: Outcome | null): void {
