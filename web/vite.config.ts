@@ -4,13 +4,16 @@ import { gzipSync } from "node:zlib";
 import react from "@vitejs/plugin-react";
 import type { Plugin } from "vite";
 import { defineConfig } from "vitest/config";
+import { chunks } from "./chunks.ts";
 
 const daemon = process.env.FIELDCAST_URL ?? "http://127.0.0.1:8080";
 
 /* gzip kB that a browser must load before the editor shows. */
 const ENTRY_BUDGET_KB = 260;
+/* Files that a browser asks for one by one. */
+const FILES_BUDGET = 10;
 
-/* Fails the build when the entry and all it imports statically outgrow the budget. */
+/* Fails the build when the entry and all it imports statically, or the number of files, outgrow it. */
 function budget(): Plugin {
     return {
         name: "budget",
@@ -30,6 +33,10 @@ function budget(): Plugin {
                     want(name);
                 }
             }
+            const files = Object.keys(bundle).length;
+            if (files > FILES_BUDGET) {
+                this.error(`${files} files, budget ${FILES_BUDGET}: see chunks.ts`);
+            }
             let bytes = 0;
             for (const name of wanted) {
                 const chunk = bundle[name];
@@ -46,7 +53,12 @@ function budget(): Plugin {
 
 export default defineConfig({
     plugins: [react(), budget()],
-    build: { target: "es2022", outDir: "dist", chunkSizeWarningLimit: 1000 },
+    build: {
+        target: "es2022",
+        outDir: "dist",
+        chunkSizeWarningLimit: 1000,
+        rollupOptions: { output: { manualChunks: chunks(), onlyExplicitManualChunks: true } },
+    },
     worker: { format: "es" },
     server: {
         proxy: {

@@ -8,7 +8,6 @@ import { type PageFile, useDrop } from "../drop/drop.ts";
 import { chooseFiles, report, SCENE_FILES } from "../files.ts";
 import { type ImportProblem, openFiles, readFiles } from "../import.ts";
 import { ThemeButton } from "../layout/Bar.tsx";
-import { lazyPart } from "../lazy.tsx";
 import { goTo } from "../route.ts";
 import { useEditor } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
@@ -16,9 +15,8 @@ import { Button, IconButton } from "../widgets/Button.tsx";
 import { Filter } from "../widgets/Filter.tsx";
 import { Logo } from "../widgets/Logo.tsx";
 import { ExampleCard, Leaving, SceneCard } from "./Card.tsx";
+import ImportFault from "./ImportFault.tsx";
 import "./scenes.css";
-
-const ImportFault = lazyPart(() => import("./ImportFault.tsx"));
 
 /* What a new scene starts with. No shapes yet, but the first one will stand in the light. */
 const EMPTY_SCENE = {
