@@ -46,6 +46,23 @@ const select = (node) => row(page, node).click();
 const placeOf = (document, node) => nodeIn(document, node).transform?.translation ?? [0, 0, 0];
 const when = (holds, what) => documentWhen(stage, id, holds, what);
 
+/** How often the page has begun to draw on the canvas of the hands; counted from the first call on. */
+const drawings = () =>
+    page.getByTestId('hands').evaluate(async (canvas) => {
+        const brush = canvas.getContext('2d');
+        if (canvas.drawings === undefined) {
+            canvas.drawings = 0;
+            brush.clearRect = (...box) => {
+                canvas.drawings += 1;
+                CanvasRenderingContext2D.prototype.clearRect.apply(brush, box);
+            };
+        }
+        for (let i = 0; i < 2; i += 1) {
+            await new Promise((drawn) => requestAnimationFrame(drawn));
+        }
+        return canvas.drawings;
+    });
+
 describe('the gizmo', () => {
     test('an arrow moves along its axis alone, as one step of undo', async () => {
         await open();
@@ -57,6 +74,23 @@ describe('the gizmo', () => {
         assert.deepEqual([y, z], [0, 0]);
         await page.keyboard.press('Control+z');
         await until(async () => (await stage.document(id)) === start, 'the document as it was');
+    });
+
+    test('its canvas is touched while something is on it, and once more when that goes', async () => {
+        await open();
+        const [x, y] = await centerOf(picture(page));
+        const hover = (dx) => page.mouse.move(x + dx, y, { steps: 4 });
+        await drawings();
+        await hover(9);
+        assert.equal(await drawings(), 0);
+        await select('ball');
+        await place('move', 0);
+        assert.ok((await drawings()) > 0);
+        await page.keyboard.press('Escape');
+        await until(async () => (await parts()).length === 0, 'nothing on it');
+        const gone = await drawings();
+        await hover(-9);
+        assert.equal(await drawings(), gone);
     });
 
     test('it stands where its object is seen, also after an orbit', async () => {

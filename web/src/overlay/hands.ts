@@ -30,6 +30,12 @@ const SLOP_TOUCH = 24;
 const NEAR_MIDDLE = 14;
 const ORIGIN: Spot = { x: 0, y: 0 };
 
+/* What is shown while no part is held. */
+interface Rest {
+    readonly handles: readonly Handle[];
+    readonly parts: readonly Part[];
+}
+
 export class Hands {
     readonly #page: HandsPage;
     readonly #element: HTMLElement;
@@ -43,6 +49,8 @@ export class Hands {
     #handle: { readonly label: string; readonly at: Spot; readonly key: string } | null = null;
     #hotHandle: string | null = null;
     #drawing = 0;
+    /* The browser copies the whole canvas after any stroke, and after clearing an empty one. */
+    #painted = true;
     #size = { width: 1, height: 1 };
 
     constructor(page: HandsPage, element: HTMLElement) {
@@ -335,10 +343,23 @@ export class Hands {
     };
 
     #draw(): void {
+        const hold = this.#hold;
+        const rest = hold === null ? this.#rest() : null;
+        const was = this.#painted;
+        this.#painted = rest === null || rest.handles.length + rest.parts.length > 0;
+        const brush = was || this.#painted ? this.#clear() : null;
+        if (brush !== null && hold !== null) {
+            this.#drawHold(brush, hold);
+        } else if (brush !== null && rest !== null) {
+            this.#drawRest(brush, rest);
+        }
+    }
+
+    #clear(): CanvasRenderingContext2D | null {
         const brush = this.#canvas.getContext("2d");
         const ratio = window.devicePixelRatio;
         if (!brush) {
-            return;
+            return null;
         }
         const [width, height] = [this.#size.width * ratio, this.#size.height * ratio].map(
             Math.round,
@@ -349,17 +370,15 @@ export class Hands {
         }
         brush.setTransform(ratio, 0, 0, ratio, 0, 0);
         brush.clearRect(0, 0, this.#size.width, this.#size.height);
-        const hold = this.#hold;
-        if (hold === null) {
-            this.#drawRest(brush);
-        } else {
-            this.#drawHold(brush, hold);
-        }
+        return brush;
     }
 
-    #drawRest(brush: CanvasRenderingContext2D): void {
+    #rest(): Rest {
         const handles = this.#handles();
-        const parts = this.#handle === null ? this.#parts(handles) : [];
+        return { handles, parts: this.#handle === null ? this.#parts(handles) : [] };
+    }
+
+    #drawRest(brush: CanvasRenderingContext2D, { handles, parts }: Rest): void {
         paintGizmo(brush, parts, this.#hot?.constraint ?? null);
         paintHandles(brush, handles, this.#handle?.key ?? this.#hotHandle);
         this.#corners.paint(brush, handles, this.#size.width);
