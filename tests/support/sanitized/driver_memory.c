@@ -168,9 +168,19 @@ static bool is_early(const void *memory)
     return false;
 }
 
+/* Its large blocks begin a red zone after a page does (its kMaxRedzone). It is not asked about
+ * other places: it would search them under a lock. */
+static bool may_be_large(const void *memory)
+{
+    const uintptr_t red_zone = 2048;
+
+    return (uintptr_t)memory % red_zone == 0;
+}
+
 static bool is_of_libc(const void *memory)
 {
-    return begun && !is_small(memory) && !__sanitizer_get_ownership(memory) && !is_early(memory);
+    return begun && !is_small(memory) && !is_early(memory) &&
+           !(may_be_large(memory) && __sanitizer_get_ownership(memory));
 }
 
 /* --- the functions --- */
