@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 // For everybody: axe finds nothing, narrow windows hold everything, keys reach every region.
 import assert from 'node:assert/strict';
-import { createRequire } from 'node:module';
 import { describe, test } from 'node:test';
+import { TAGS, violationsOf } from './axe.mjs';
 import { check as lookAt } from './screens/checks.mjs';
 import { closePage, row, SCENE, settled, useStage } from './stage.mjs';
 
-const require = createRequire(new URL('../../web/package.json', import.meta.url));
-const { AxeBuilder } = require('@axe-core/playwright');
-
-const RULES = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
+const RULES = [...TAGS, 'best-practice'];
 
 /** One of everything that a document can hold of its own. */
 const OWN = {
@@ -40,179 +37,168 @@ const OWN = {
 };
 
 let scene;
-const stage = useStage({ driver: 'null' }, async () => {
+const stage = useStage({ driver: 'null', coarse: true }, async () => {
     scene = await stage.scene();
 });
 
-/**
- * Focus guards of Base UI are left aside: they pass the focus on in the moment they get it. Themes
- * differ by their colours alone, so the second one is looked at for these.
- */
+/** Themes differ by their colours alone: the light one is looked at for these. */
 async function check(page, what, without = []) {
-    const light = await page.evaluate(() => matchMedia('(prefers-color-scheme: light)').matches);
-    const axe = new AxeBuilder({ page }).options({ resultTypes: ['violations'] }).setLegacyMode(); // else each look opens a page more
-    const { violations } = await (light ? axe.withRules(['color-contrast']) : axe.withTags(RULES))
-        .disableRules(without)
-        .exclude('[data-base-ui-focus-guard]')
-        .analyze();
-    const found = violations.map(
-        ({ id, nodes }) => `${id}: ${nodes.map(({ target, any }) => `${target} ${any[0]?.message ?? ''}`).join(' | ')}`,
-    );
-    assert.deepEqual(found, [], what);
+    assert.deepEqual(await violationsOf(page, { tags: RULES, without }), [], what);
+    await page.emulateMedia({ colorScheme: 'light' });
+    assert.deepEqual(await violationsOf(page, { rules: ['color-contrast'] }), [], `${what}, light`);
+    await page.emulateMedia({ colorScheme: 'dark' });
 }
 
-for (const theme of ['dark', 'light']) {
-    describe(`axe, ${theme}`, () => {
-        test('start page', async () => {
-            const page = await stage.page({ theme });
-            await page.locator('[data-example]').first().waitFor();
-            await page.locator('[data-scene]').first().waitFor();
-            await check(page, 'start page');
-            await closePage(page);
-        });
-
-        test('editor with a node, a material, a light, the camera', async () => {
-            const page = await stage.page({ scene, theme });
-            await settled(page);
-            await check(page, 'nothing selected');
-            await row(page, 'ball').click();
-            await page.getByTestId('inspector').waitFor();
-            await check(page, 'a node');
-            await page.locator('[data-resource=clay] .resource-pick').click();
-            await check(page, 'a material');
-            await page.locator('[data-resource=sun] .resource-pick').click();
-            await check(page, 'a light');
-            await page.getByRole('button', { name: 'Camera', exact: true }).click();
-            await check(page, 'the camera');
-            await closePage(page);
-        });
-
-        test('the equation of a parametric surface, found and refused', async () => {
-            const document = { format: 'fieldcast/1', root: { id: 'it', type: 'implicit' } };
-            const page = await stage.page({ scene: await stage.scene(document), theme });
-            page.expected = /status of 422/;
-            await settled(page);
-            await row(page, 'it').click();
-            await page.getByRole('button', { name: 'From a parametric surface' }).click();
-            await page.getByText('proved to be exact').waitFor();
-            await check(page, 'an equation that is found');
-            await page.getByRole('textbox', { name: 'z =' }).fill('t+');
-            await page.getByRole('dialog').locator('mark').waitFor();
-            await check(page, 'an error in a part');
-            await closePage(page);
-        });
-
-        test('volumes, backdrop, render, another output, a picture as a file', async () => {
-            const misty = {
-                ...SCENE,
-                volumes: [{ id: 'mist', type: 'box' }],
-                environment: { type: 'image', fog: 0.01, floor: true },
-            };
-            const page = await stage.page({ scene: await stage.scene(misty), theme });
-            await settled(page);
-            await page.locator('[data-resource=mist] .resource-pick').click();
-            await check(page, 'a volume');
-            await page.getByRole('button', { name: 'Backdrop' }).click();
-            await page.getByRole('button', { name: 'Upload …' }).waitFor();
-            await check(page, 'what is around');
-            await page.getByRole('button', { name: 'Render', exact: true }).click();
-            await check(page, 'render');
-            await page.getByTestId('outputs').click();
-            await page.getByRole('menuitemradio', { name: /^Normals/ }).waitFor();
-            await check(page, 'menu of outputs', ['region']);
-            await page.getByRole('menuitemradio', { name: /^Normals/ }).click();
-            await page.getByRole('button', { name: 'Back to the colours' }).waitFor();
-            await page.getByRole('menu').waitFor({ state: 'detached' });
-            await check(page, 'another output');
-            await page.keyboard.press('Control+Shift+S');
-            await page.getByRole('dialog').waitFor();
-            await check(page, 'a picture as a file');
-            await closePage(page);
-        });
-
-        test('models, primitives, shaders and their code; points', async () => {
-            const own = await stage.scene(OWN);
-            const page = await stage.page({ scene: own, theme });
-            await settled(page);
-            await page.locator('[data-resource=egg] .resource-pick').click();
-            await page.getByRole('button', { name: 'More of radius' }).click();
-            await page.getByRole('spinbutton', { name: 'default of radius' }).waitFor();
-            await check(page, 'a primitive');
-            await page.getByRole('button', { name: 'Edit code' }).click();
-            await page.locator('.cm-content').click();
-            await page.keyboard.press('Control+a');
-            await page.keyboard.insertText('float sdf(vec3 p) {\n    return 1 +;\n}');
-            await page.getByTestId('broken').waitFor();
-            await check(page, 'code with an error');
-            await page.locator('.cm-content').click();
-            await page.keyboard.press('Control+z');
-            await page.getByTestId('broken').waitFor({ state: 'detached' });
-            await page.locator('[data-resource=veined] .resource-pick').click();
-            await check(page, 'a material of a shader of the scene');
-            await page.locator('[data-resource=pawn] .resource-pick').click();
-            await check(page, 'a model');
-            await row(page, 'one').click();
-            await check(page, 'an instance');
-            await row(page, 'shape').click();
-            await page.getByRole('button', { name: /^point 1:/ }).waitFor();
-            await check(page, 'points');
-            await closePage(page);
-        });
-
-        test('gallery of materials', async () => {
-            const page = await stage.page({ scene, theme });
-            await settled(page);
-            await row(page, 'ball').click();
-            await page.locator('[data-param=material]').getByRole('button', { name: 'New material' }).click();
-            await page.locator('.gallery-tile').first().waitFor();
-            /* What floats may lie over parts of controls. */
-            await check(page, 'gallery', ['region', 'target-size']);
-            await page.keyboard.press('Escape');
-            await closePage(page);
-        });
-
-        test('graph', async () => {
-            const page = await stage.page({ scene: await stage.scene(), theme, height: 1000 });
-            await settled(page);
-            await page.keyboard.press('Alt+1');
-            await page.locator('[data-card="root"]').waitFor();
-            await check(page, 'the graph');
-            await row(page, 'ball').click();
-            await page.locator('[data-card="ball"][data-selected]').waitFor();
-            await check(page, 'a card that is selected');
-            await page.getByRole('button', { name: 'Fold pair' }).click();
-            await page.locator('[data-card="ring"]').waitFor({ state: 'detached' });
-            await page.getByRole('button', { name: 'Reduce' }).click();
-            await page.getByRole('button', { name: 'Reduce' }).click();
-            await page.getByRole('button', { name: 'Reduce' }).click();
-            await page.locator('.graph-flow[data-far="2"]').waitFor();
-            await check(page, 'cards from afar');
-            await closePage(page);
-        });
-
-        test('palettes, keys, statistics, menus', async () => {
-            const page = await stage.page({ scene, theme });
-            await settled(page);
-            for (const keys of ['Shift+A', 'Control+k', '?', 'F1']) {
-                await page.keyboard.press(keys);
-                await page.getByRole('dialog').waitFor();
-                await check(page, keys);
-                await page.keyboard.press('Escape');
-                await page.getByRole('dialog').waitFor({ state: 'detached' });
-            }
-            await page.getByTestId('statistics').click();
-            await page.locator('.stats-table').getByText('march').waitFor();
-            await check(page, 'statistics');
-            await page.keyboard.press('Escape');
-            await row(page, 'crate').click({ button: 'right' });
-            await page.getByRole('menu').waitFor();
-            /* A menu floats over all regions. */
-            await check(page, 'menu of a node', ['region']);
-            await page.keyboard.press('Escape');
-            await closePage(page);
-        });
+describe('axe finds nothing', () => {
+    test('start page', async () => {
+        const page = await stage.page();
+        await page.locator('[data-example]').first().waitFor();
+        await page.locator('[data-scene]').first().waitFor();
+        await check(page, 'start page');
+        await closePage(page);
     });
-}
+
+    test('editor with a node, a material, a light, the camera', async () => {
+        const page = await stage.page({ scene });
+        await settled(page);
+        await check(page, 'nothing selected');
+        await row(page, 'ball').click();
+        await page.getByTestId('inspector').waitFor();
+        await check(page, 'a node');
+        await page.locator('[data-resource=clay] .resource-pick').click();
+        await check(page, 'a material');
+        await page.locator('[data-resource=sun] .resource-pick').click();
+        await check(page, 'a light');
+        await page.getByRole('button', { name: 'Camera', exact: true }).click();
+        await check(page, 'the camera');
+        await closePage(page);
+    });
+
+    test('the equation of a parametric surface, found and refused', async () => {
+        const document = { format: 'fieldcast/1', root: { id: 'it', type: 'implicit' } };
+        const page = await stage.page({ scene: await stage.scene(document) });
+        page.expected = /status of 422/;
+        await settled(page);
+        await row(page, 'it').click();
+        await page.getByRole('button', { name: 'From a parametric surface' }).click();
+        await page.getByText('proved to be exact').waitFor();
+        await check(page, 'an equation that is found');
+        await page.getByRole('textbox', { name: 'z =' }).fill('t+');
+        await page.getByRole('dialog').locator('mark').waitFor();
+        await check(page, 'an error in a part');
+        await closePage(page);
+    });
+
+    test('volumes, backdrop, render, another output, a picture as a file', async () => {
+        const misty = {
+            ...SCENE,
+            volumes: [{ id: 'mist', type: 'box' }],
+            environment: { type: 'image', fog: 0.01, floor: true },
+        };
+        const page = await stage.page({ scene: await stage.scene(misty) });
+        await settled(page);
+        await page.locator('[data-resource=mist] .resource-pick').click();
+        await check(page, 'a volume');
+        await page.getByRole('button', { name: 'Backdrop' }).click();
+        await page.getByRole('button', { name: 'Upload …' }).waitFor();
+        await check(page, 'what is around');
+        await page.getByRole('button', { name: 'Render', exact: true }).click();
+        await check(page, 'render');
+        await page.getByTestId('outputs').click();
+        await page.getByRole('menuitemradio', { name: /^Normals/ }).waitFor();
+        await check(page, 'menu of outputs', ['region']);
+        await page.getByRole('menuitemradio', { name: /^Normals/ }).click();
+        await page.getByRole('button', { name: 'Back to the colours' }).waitFor();
+        await page.getByRole('menu').waitFor({ state: 'detached' });
+        await check(page, 'another output');
+        await page.keyboard.press('Control+Shift+S');
+        await page.getByRole('dialog').waitFor();
+        await check(page, 'a picture as a file');
+        await closePage(page);
+    });
+
+    test('models, primitives, shaders and their code; points', async () => {
+        const own = await stage.scene(OWN);
+        const page = await stage.page({ scene: own });
+        await settled(page);
+        await page.locator('[data-resource=egg] .resource-pick').click();
+        await page.getByRole('button', { name: 'More of radius' }).click();
+        await page.getByRole('spinbutton', { name: 'default of radius' }).waitFor();
+        await check(page, 'a primitive');
+        await page.getByRole('button', { name: 'Edit code' }).click();
+        await page.locator('.cm-content').click();
+        await page.keyboard.press('Control+a');
+        await page.keyboard.insertText('float sdf(vec3 p) {\n    return 1 +;\n}');
+        await page.getByTestId('broken').waitFor();
+        await check(page, 'code with an error');
+        await page.locator('.cm-content').click();
+        await page.keyboard.press('Control+z');
+        await page.getByTestId('broken').waitFor({ state: 'detached' });
+        await page.locator('[data-resource=veined] .resource-pick').click();
+        await check(page, 'a material of a shader of the scene');
+        await page.locator('[data-resource=pawn] .resource-pick').click();
+        await check(page, 'a model');
+        await row(page, 'one').click();
+        await check(page, 'an instance');
+        await row(page, 'shape').click();
+        await page.getByRole('button', { name: /^point 1:/ }).waitFor();
+        await check(page, 'points');
+        await closePage(page);
+    });
+
+    test('gallery of materials', async () => {
+        const page = await stage.page({ scene });
+        await settled(page);
+        await row(page, 'ball').click();
+        await page.locator('[data-param=material]').getByRole('button', { name: 'New material' }).click();
+        await page.locator('.gallery-tile').first().waitFor();
+        /* What floats may lie over parts of controls. */
+        await check(page, 'gallery', ['region', 'target-size']);
+        await page.keyboard.press('Escape');
+        await closePage(page);
+    });
+
+    test('graph', async () => {
+        const page = await stage.page({ scene: await stage.scene(), height: 1000 });
+        await settled(page);
+        await page.keyboard.press('Alt+1');
+        await page.locator('[data-card="root"]').waitFor();
+        await check(page, 'the graph');
+        await row(page, 'ball').click();
+        await page.locator('[data-card="ball"][data-selected]').waitFor();
+        await check(page, 'a card that is selected');
+        await page.getByRole('button', { name: 'Fold pair' }).click();
+        await page.locator('[data-card="ring"]').waitFor({ state: 'detached' });
+        await page.getByRole('button', { name: 'Reduce' }).click();
+        await page.getByRole('button', { name: 'Reduce' }).click();
+        await page.getByRole('button', { name: 'Reduce' }).click();
+        await page.locator('.graph-flow[data-far="2"]').waitFor();
+        await check(page, 'cards from afar');
+        await closePage(page);
+    });
+
+    test('palettes, keys, statistics, menus', async () => {
+        const page = await stage.page({ scene });
+        await settled(page);
+        for (const keys of ['Shift+A', 'Control+k', '?', 'F1']) {
+            await page.keyboard.press(keys);
+            await page.getByRole('dialog').waitFor();
+            await check(page, keys);
+            await page.keyboard.press('Escape');
+            await page.getByRole('dialog').waitFor({ state: 'detached' });
+        }
+        await page.getByTestId('statistics').click();
+        await page.locator('.stats-table').getByText('march').waitFor();
+        await check(page, 'statistics');
+        await page.keyboard.press('Escape');
+        await row(page, 'crate').click({ button: 'right' });
+        await page.getByRole('menu').waitFor();
+        /* A menu floats over all regions. */
+        await check(page, 'menu of a node', ['region']);
+        await page.keyboard.press('Escape');
+        await closePage(page);
+    });
+});
 
 /** What stands beyond the sides of the window. */
 const spill = (page) =>
@@ -227,92 +213,64 @@ const spill = (page) =>
         return { outside, scrolls: scrollWidth > clientWidth };
     });
 
+/** Opens a tab of a narrow window; a wide one shows all of them. */
+async function openTab(page, name) {
+    const tab = page.getByRole('tab', { name });
+    if ((await tab.count()) > 0) {
+        await tab.click();
+    }
+}
+
 describe('sizes', () => {
+    const holdsAll = async (page, what) => assert.deepEqual(await spill(page), { outside: [], scrolls: false }, what);
+
     for (const [width, height] of [
         [1200, 800],
         [900, 700],
         [400, 800],
         [320, 640],
     ]) {
-        test(`${width} × ${height}`, async () => {
-            for (const open of [null, scene]) {
-                const page = await stage.page({ scene: open, width, height });
-                await page.locator(open ? '[role=treeitem]' : '[data-example]').first().waitFor();
-                assert.deepEqual(await spill(page), { outside: [], scrolls: false });
-                await closePage(page);
-            }
+        test(`the start page, ${width} × ${height}`, async () => {
+            const page = await stage.page({ width, height });
+            await page.locator('[data-example]').first().waitFor();
+            await holdsAll(page);
         });
-    }
 
-    for (const [width, height] of [
-        [1200, 800],
-        [900, 700],
-        [320, 640],
-    ]) {
-        test(`code and reference, ${width} × ${height}`, async () => {
+        test(`editor, reference, code, a picture as a file, gallery, graph, ${width} × ${height}`, async () => {
             const page = await stage.page({ scene: await stage.scene(OWN), width, height });
+            await holdsAll(page, 'editor');
             await page.keyboard.press('F1');
             await page.locator('.reference-link').first().waitFor();
-            assert.deepEqual(await spill(page), { outside: [], scrolls: false });
+            await holdsAll(page, 'reference');
             await page.keyboard.press('Escape');
             await page.getByTestId('reference').waitFor({ state: 'detached' });
-            const looks = page.getByRole('tab', { name: 'Looks' });
-            if ((await looks.count()) > 0) {
-                await looks.click();
-            }
-            await page.locator('[data-resource=egg] .resource-pick').click();
-            const edit = page.getByRole('tab', { name: 'Edit' });
-            if ((await edit.count()) > 0) {
-                await edit.click();
-            }
-            await page.getByRole('button', { name: 'Edit code' }).click();
-            await page.locator('.cm-content').waitFor();
-            assert.deepEqual(await spill(page), { outside: [], scrolls: false });
-            await closePage(page);
-        });
-    }
 
-    for (const [width, height] of [
-        [1200, 800],
-        [900, 700],
-        [320, 640],
-    ]) {
-        test(`a picture as a file, ${width} × ${height}`, async () => {
-            const page = await stage.page({ scene, width, height });
             await page.keyboard.press('Control+Shift+S');
             await page.getByRole('dialog').getByRole('button', { name: 'Download' }).waitFor();
-            assert.deepEqual(await spill(page), { outside: [], scrolls: false });
-            await closePage(page);
-        });
-    }
+            await holdsAll(page, 'a picture as a file');
+            await page.keyboard.press('Escape');
+            await page.getByRole('dialog').waitFor({ state: 'detached' });
 
-    for (const [width, height] of [
-        [1200, 800],
-        [900, 700],
-        [320, 640],
-    ]) {
-        test(`gallery of materials, ${width} × ${height}`, async () => {
-            const page = await stage.page({ scene, width, height });
-            const looks = page.getByRole('tab', { name: 'Looks' });
-            if ((await looks.count()) > 0) {
-                await looks.click();
-            }
+            await openTab(page, 'Looks');
             await page.getByRole('button', { name: 'Add a material' }).click();
             await page.locator('.gallery-tile').first().waitFor();
-            assert.deepEqual(await spill(page), { outside: [], scrolls: false });
+            await holdsAll(page, 'gallery');
             const box = await page.getByTestId('gallery').boundingBox();
             assert.ok(box.x >= 0 && box.x + box.width <= width && box.y >= 0 && box.y + box.height <= height);
-            await closePage(page);
-        });
+            await page.keyboard.press('Escape');
+            await page.getByTestId('gallery').waitFor({ state: 'detached' });
 
-        test(`graph, ${width} × ${height}`, async () => {
-            const page = await stage.page({ scene, width, height });
+            await page.locator('[data-resource=egg] .resource-pick').click();
+            await openTab(page, 'Edit');
+            await page.getByRole('button', { name: 'Edit code' }).click();
+            await page.locator('.cm-content').waitFor();
+            await holdsAll(page, 'code');
+
             await page.keyboard.press('Alt+1');
             await page.locator('.graph-head').waitFor();
             await page.locator('[data-card="root"]').waitFor();
             const head = await page.locator('.graph-head').boundingBox();
             assert.ok(head.x >= 0 && head.x + head.width <= width);
-            await closePage(page);
         });
     }
 

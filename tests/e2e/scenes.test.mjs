@@ -7,7 +7,7 @@ import { EXAMPLES } from '../support/counts.mjs';
 import { ask, until } from '../support/daemon.mjs';
 import { readDownload, SCENE, settled, useStage } from './stage.mjs';
 
-const stage = useStage({ driver: 'null' });
+const stage = useStage({ driver: 'null', coarse: true });
 let page;
 
 const scenes = async () => (await ask(stage.daemon, 'GET', '/v1/scenes')).scenes;

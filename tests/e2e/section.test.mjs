@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A plane cuts the pictures of one page: as REST draws them, no edit, and clicks find what is seen.
 import assert from 'node:assert/strict';
-import { createRequire } from 'node:module';
 import { test } from 'node:test';
 import { until } from '../support/daemon.mjs';
 import { decodePng } from '../support/png.mjs';
+import { TAGS, violationsOf } from './axe.mjs';
 import { difference, drawnPixels, picture, pictureChanged, pixels, pixelsLike, row, settled, useStage } from './stage.mjs';
-
-const require = createRequire(new URL('../../web/package.json', import.meta.url));
-const { AxeBuilder } = require('@axe-core/playwright');
 
 /* A ball inside of a ball, seen along z. */
 const DOCUMENT = {
@@ -175,8 +172,7 @@ test('a hand or keys move the plane along its normal by the arrow, and edit noth
     assert.ok(Math.abs((await placeOf(page)) - least - 0.11) < 6e-3, 'a step and a tenth of one');
     await page.getByRole('button', { name: 'Other side' }).click();
     await showsCut(page, id, { normal: [0, 0, -1], offset: -(await placeOf(page)) });
-    const { violations } = await new AxeBuilder({ page }).setLegacyMode().include('.view').analyze();
-    assert.deepEqual(violations.map(({ id: rule, nodes }) => `${rule}: ${nodes.map(({ target }) => target)}`), []);
+    assert.deepEqual(await violationsOf(page, { inside: '.view', tags: [...TAGS, 'best-practice'] }), []);
     assert.equal(await stage.document(id), before);
 });
 

@@ -30,6 +30,9 @@ const FLAGS = [
     '--disable-features=BackForwardCache', // it keeps pages that were left
 ];
 
+/** Pages of tests live for seconds: what compiles their scripts for speed takes more time than it saves. */
+const SHORT_LIVES = '--js-flags=--no-opt,--no-maglev,--min-semi-space-size=16';
+
 const WEBGL_FLAGS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 
 /** Small, quick to draw, with one of everything that the tests touch. */
@@ -112,7 +115,10 @@ export async function openStage({ data, driver, whole = false, webgl = false, co
     const args = [...(web ? ['--web', web] : []), ...more];
     const daemon = await startDaemon({ data, driver, args });
     const executablePath = whole ? WHOLE : SHELL;
-    const flags = webgl ? [...FLAGS.filter((flag) => flag !== '--disable-gpu'), ...WEBGL_FLAGS] : FLAGS;
+    const flags = webgl ? [...FLAGS.filter((flag) => flag !== '--disable-gpu'), ...WEBGL_FLAGS] : [...FLAGS];
+    if (!whole) {
+        flags.push(SHORT_LIVES);
+    }
     const browser = await chromium.launch({ executablePath, args: flags, timeout: 0 });
     const watched = watch(browser);
     const tabs = new Tabs(browser, () => `${daemon.url}/healthz`);

@@ -5,7 +5,7 @@ import { test } from 'node:test';
 import { ask, until } from '../support/daemon.mjs';
 import { row, useStage } from './stage.mjs';
 
-const stage = useStage({ driver: 'null' });
+const stage = useStage({ driver: 'null', coarse: true });
 
 /** The mean colour of what the picture shows, red to blue; null: there is no picture yet. */
 const tint = (thumbnail) =>

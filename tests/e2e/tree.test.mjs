@@ -10,7 +10,7 @@ import {
     useStage,
 } from './stage.mjs';
 
-const stage = useStage({ driver: 'null' });
+const stage = useStage({ driver: 'null', coarse: true });
 let page;
 let id;
 

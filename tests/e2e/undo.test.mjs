@@ -14,7 +14,7 @@ import {
     waitForSaved,
 } from './stage.mjs';
 
-const stage = useStage({ driver: 'null' });
+const stage = useStage({ driver: 'null', coarse: true });
 
 const radiusOf = (document) => nodeIn(document, 'ball').params.radius;
 

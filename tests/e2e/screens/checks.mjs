@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a machine can say of a page as it stands: texts that are cut off, controls that lie over each
 // other or outside of the window, colours that are hard to read.
-import { createRequire } from 'node:module';
-
-const require = createRequire(new URL('../../../web/package.json', import.meta.url));
-const { AxeBuilder } = require('@axe-core/playwright');
+import { violationsOf } from '../axe.mjs';
 
 const SLACK = 1.5; // CSS pixels that a rounded place may be off
 const LAP = 3.5; // controls may share a rim of so many pixels
@@ -238,22 +235,12 @@ const LOOK = `(() => {
     return look(tools(${JSON.stringify({ SLACK, LAP })}));
 })()`;
 
-async function contrast(page) {
-    const { violations } = await new AxeBuilder({ page })
-        .withRules(['color-contrast', 'target-size'])
-        .exclude('[data-base-ui-focus-guard]')
-        .analyze();
-    return violations.flatMap(({ id, nodes }) =>
-        nodes.map(({ target, any }) => `${id}: ${target} ${any[0]?.message ?? ''}`),
-    );
-}
-
 /** What is wrong with a page now, in words. */
 export async function check(page) {
     const problems = page.problems.filter((text) => !page.expected?.test(text));
     return [
         ...(await page.evaluate(LOOK)),
-        ...(await contrast(page)),
+        ...(await violationsOf(page, { rules: ['color-contrast', 'target-size'] })),
         ...problems.map((text) => `console: ${text}`),
     ];
 }
