@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs every suite and adds up their TAP. The last line is `N passed, N failed`. Suites run two at a
-// time, but for those that look at what a process costs, or at what it does in a while: they run alone.
+// time, but for those that bring a load of their own or look at what a process costs: they run alone.
 //
 //   node tests/run.mjs BUILD [WORD]...    BUILD: the folder with the program (build/asan); only
 //                                         suites whose name holds one of the words
@@ -27,17 +27,9 @@ const TICKS = 100; // of /proc, in a second
 const LOG_LINES = 100; // shown of the end of a suite that failed
 const REPORT_LINES = 30; // shown of each test that failed
 const REPORTS = 5;
-const ORDER = ['unit', 'lint', 'cli', 'web', 'property', 'golden', 'api', 'kill', 'fault', 'e2e'];
-const ALONE = [
-    'api/hostile_load',
-    'api/live',
-    'api/shares',
-    'api/sockets',
-    'kill/drain',
-    'kill/image',
-    'kill/patience',
-    'kill/worker',
-];
+// The longest are not the last: nothing would run beside them.
+const ORDER = ['unit', 'lint', 'cli', 'web', 'e2e', 'property', 'golden', 'api', 'kill', 'fault'];
+const ALONE = ['api/hostile_load', 'kill/worker'];
 const NOT_SUITES = ['bench', 'support', 'invalid'];
 
 const root = path.dirname(path.dirname(new URL(import.meta.url).pathname));

@@ -98,7 +98,12 @@ export async function standStill(pid) {
     await until(() => statesOf(pid).every((state) => state === 'T'), `process ${pid} to stand still`);
 }
 
-const driverFile = (name) => path.join(path.dirname(program), `tests/support/drivers/${name}_driver.so`);
+/** The linker would go on without one that is missing. */
+function driverFile(name) {
+    const file = path.join(path.dirname(program), `tests/support/drivers/${name}_driver.so`);
+    fs.accessSync(file);
+    return file;
+}
 
 /** What a program needs in its environment to have drivers in front of its own (support/drivers). */
 export const driverEnvironment = (...names) => ({
