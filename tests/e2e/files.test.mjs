@@ -218,7 +218,7 @@ test('nodes copied in one scene are pasted in another with all that they name', 
         'the nodes in the clipboard',
     );
     id = await stage.scene();
-    await page.goto(`${stage.daemon.url}/s/${id}`);
+    await page.goto(`${stage.site}/s/${id}`);
     await row(page, 'crate').click();
     await page.keyboard.press('Control+v');
     const document = await when((d) => d.models?.knobs, 'the model');

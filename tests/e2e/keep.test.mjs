@@ -82,6 +82,7 @@ describe('number fields', () => {
         await valueIs(radius, '1');
         await radius.press('Control+Shift+z');
         await when((d) => radiusOf(d) === 0.7, 'the value again');
+        await valueIs(radius, '0.7');
         await radius.press('ArrowUp');
         await when((d) => radiusOf(d) === 0.75, 'one step up');
         await radius.press('Control+z');

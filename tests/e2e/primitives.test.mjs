@@ -188,6 +188,7 @@ describe('primitives of nodes', () => {
         assert.ok(difference(await stillPixels(page), before) <= 1, 'the picture stays');
         await page.keyboard.press('Control+z');
         await until(async () => (await stage.document(id)) === start, 'the old name everywhere');
+        await field(page, 'wide').waitFor();
 
         await row(page, 'one').click();
         await page.getByRole('button', { name: 'Choose its parameters' }).click();

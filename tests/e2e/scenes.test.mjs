@@ -203,7 +203,7 @@ test('files that cannot be read say where; of several scenes one is chosen', asy
 test('an address without a scene says so, without tools, and leads to the scenes', async () => {
     page = await stage.page();
     page.expected = /404|WebSocket/;
-    await page.goto(`${stage.daemon.url}/s/nowhere`);
+    await page.goto(`${stage.site}/s/nowhere`);
     await page.getByRole('heading', { name: /^There is no such scene/ }).waitFor();
     assert.equal(await page.getByRole('button').count(), 1);
     await page.getByRole('button', { name: 'All scenes' }).click();

@@ -7,6 +7,7 @@ import { after, afterEach, before } from 'node:test';
 import { ask, startDaemon, until } from '../support/daemon.mjs';
 import { descendantsOf, Patience } from '../support/patience.mjs';
 import { decodePng } from '../support/png.mjs';
+import { slowLine } from '../support/slow_line.mjs';
 import { Tabs } from './tabs.mjs';
 
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
@@ -14,6 +15,9 @@ const { chromium } = require('playwright-core');
 
 /** Every wait is for a condition. It ends in vain when nothing happens: pages are closed then. */
 const PATIENCE = { idleSeconds: Number(process.env.E2E_IDLE_SECONDS ?? 90), busySeconds: 400 };
+
+/** Pages hear of the server so many milliseconds later: tests that take its state for theirs fail. */
+const DELAY_MS = Number(process.env.E2E_DELAY_MS ?? 0);
 
 /** Without windows of its own it takes half of what the whole browser takes. It cannot lock a pointer. */
 export const SHELL = '/usr/bin/chromium-headless-shell';
@@ -114,6 +118,7 @@ export async function openStage({ data, driver, whole = false, webgl = false, co
     const web = process.env.FIELDCAST_WEB;
     const args = [...(web ? ['--web', web] : []), ...more];
     const daemon = await startDaemon({ data, driver, args });
+    const site = DELAY_MS > 0 ? await slowLine(Number(new URL(daemon.url).port), DELAY_MS) : daemon.url;
     const executablePath = whole ? WHOLE : SHELL;
     const flags = webgl ? [...FLAGS.filter((flag) => flag !== '--disable-gpu'), ...WEBGL_FLAGS] : [...FLAGS];
     if (!whole) {
@@ -121,10 +126,12 @@ export async function openStage({ data, driver, whole = false, webgl = false, co
     }
     const browser = await chromium.launch({ executablePath, args: flags, timeout: 0 });
     const watched = watch(browser);
-    const tabs = new Tabs(browser, () => `${daemon.url}/healthz`);
+    const tabs = new Tabs(browser, () => `${site}/healthz`);
     let made = 0;
     return {
         daemon,
+        /** Where pages find it. */
+        site,
         browser,
         args,
         /** A new scene's id. */
@@ -136,7 +143,7 @@ export async function openStage({ data, driver, whole = false, webgl = false, co
         },
         /** Something is still going on. */
         heard: watched.heard,
-        page: (options) => openPage(tabs, daemon, watched, { whole, coarse, ...options }),
+        page: (options) => openPage(tabs, site, watched, { whole, coarse, ...options }),
         /** The document's bytes as the server holds them. */
         document: async (id) => (await fetch(`${daemon.url}/v1/scenes/${id}`)).text(),
         async close() {
@@ -175,7 +182,7 @@ export function useStage(options, prepare = () => {}) {
 const tabsOf = new WeakMap(); // of pages that a stage opened
 
 /** `scene` null: the start page. What the console says goes into `page.problems`. */
-async function openPage(tabs, daemon, watched, options = {}) {
+async function openPage(tabs, site, watched, options = {}) {
     const { scene = null, width = 1200, height = 800, theme = 'dark', ...more } = options;
     const page = await tabs.take({ width, height, theme, ...more });
     tabsOf.set(page, tabs);
@@ -189,7 +196,7 @@ async function openPage(tabs, daemon, watched, options = {}) {
             page.problems.push(message.text());
         }
     });
-    await page.goto(`${daemon.url}/${scene === null ? '' : `s/${scene}`}`);
+    await page.goto(`${site}/${scene === null ? '' : `s/${scene}`}`);
     if (scene !== null) {
         await page.locator('[role=treeitem]').first().waitFor();
     }
