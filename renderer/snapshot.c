@@ -89,13 +89,12 @@ static void note_bounds(const struct field *field, struct scene_bounds *extent)
 }
 
 /* While the outermost shape is dragged, rays begin where they did before, and the rest of the
- * picture is the same (engine/seen.h). In a large field that costs more than it saves: right above
- * many shapes the distance depends on all of them, and rays would begin there. */
-static double bounds_step(const struct field *field, double scale)
+ * picture is the same (engine/seen.h). */
+static double bounds_step(double scale)
 {
-    enum { FEW = 128, PARTS = 16 };
+    enum { PARTS = 8 };
 
-    return field->instruction_count <= FEW ? exp2(floor(log2(scale))) / PARTS : 0;
+    return exp2(floor(log2(scale))) / PARTS;
 }
 
 /* `limit_loops`: the driver ends long ones. */
@@ -107,7 +106,7 @@ struct scene_bounds snapshot_bounds(const struct geometry *geometry, const struc
     struct scene_bounds extent = {.scale = scene_scale(camera),
                                   .transmissive = field->transmissive,
                                   .reflective = is_reflective(field),
-                                  .step = bounds_step(field, scene_scale(camera)),
+                                  .step = bounds_step(scene_scale(camera)),
                                   .loop_trips = (int)field->loop_trips,
                                   .limit_loops = limit_loops};
 

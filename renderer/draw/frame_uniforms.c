@@ -177,8 +177,8 @@ static void set_box(float low[3], float high[3], const double min[3], const doub
 
     for (int i = 0; i < 3; i++) {
         const double from = min[i] - room, to = max[i] + room;
-        low[i] = (float)clamp(step > 0 ? step * floor(from / step) : from, -FAR_AWAY, FAR_AWAY);
-        high[i] = (float)clamp(step > 0 ? step * ceil(to / step) : to, -FAR_AWAY, FAR_AWAY);
+        low[i] = (float)clamp(step * floor(from / step), -FAR_AWAY, FAR_AWAY);
+        high[i] = (float)clamp(step * ceil(to / step), -FAR_AWAY, FAR_AWAY);
     }
 }
 

@@ -18,7 +18,7 @@ struct scene_bounds {
     bool estimates;   /* some shapes estimate their distance: glsl/field_mask.glsl */
     bool rise;        /* some distances are bounds, as of shapes that are scaled along an axis */
     double scale;     /* size of what is of interest; occlusion reaches a part */
-    double step;      /* where rays begin and end is rounded outwards to it; 0: it is not */
+    double step;      /* where rays begin and end is rounded outwards to it */
     int loop_trips;   /* loop iterations in one evaluation */
     bool limit_loops; /* the driver counts iterations: llvmpipe stops at 65,535 */
 };

@@ -5,7 +5,8 @@
  * own. Cubes are those of a grid, by whose whole numbers they are found. */
 
 #define LOOSE 1.1f             /* of its half: the points of a vector need not be in one cube */
-#define CELL_PIXELS 8          /* half of the smallest, in footprints */
+#define CELL_PIXELS 8          /* half of the smallest, in footprints; */
+#define CELL_PIXELS_LONG 2     /* with a tape of more than BOUND_TAPE */
 #define CELL_NEAR 0.15f        /* half of the smallest, as a part of the distance to a surface */
 #define CELL_SHORT 3           /* such a tape is not made shorter */
 #define CELL_RUN 4             /* operations that take as long as it does to begin a tape */
@@ -16,7 +17,7 @@
 #define TAPE_STEPS 128         /* the least tape that has room to grow is twice as long */
 #define WASTED_LIMIT (1 << 21) /* words of tapes that are not used, which are let be */
 #define BOUND_NEAR 2           /* a cube is far from surfaces that are so many of its halves away */
-#define BOUND_TAPE 96          /* operations that take longer than more steps by a bound */
+#define BOUND_TAPE 48          /* operations that take longer than more steps by a bound */
 #define VALUE_LEAST 12         /* of so many operations, what a tape gives is noted; */
 #define VALUE_MOST 24          /* of so many in a field of four times as many */
 /* Of the root's side: as many as a float has. Place 0, 0, 0 is a third of the way along each axis
@@ -393,7 +394,8 @@ static bool is_worth_splitting(const struct lanes *c, const struct cell *cell)
     const float way = f_max(sqrtf(square) - 1.7320508f * cell->half, 0.0f);
     const float print =
         c->frame->camera.pixel_radius * (c->frame->camera.orthographic ? 1.0f : way);
-    return cell->half > f_max(2.0f * CELL_PIXELS * print, CELL_NEAR * fabsf(cell->distance));
+    const float pixels = cell->count > BOUND_TAPE ? CELL_PIXELS_LONG : CELL_PIXELS;
+    return cell->half > f_max(2.0f * pixels * print, CELL_NEAR * fabsf(cell->distance));
 }
 
 /* With its tape. */
