@@ -69,16 +69,32 @@ static uint32_t add_whole_tape(struct cells *cells, size_t count)
     return (uint32_t)at;
 }
 
+/* That a tape of so many words may have. With narrow vectors children are looked at by parts: there
+ * are none. */
+static size_t checkpoints_in(size_t count)
+{
+    const size_t words = tape_words(count);
+
+    return words < CHECKPOINT_TAPE || LANES < CUBE_CHILDREN ? 0 : words / CHECKPOINT_WORDS;
+}
+
+/* What it takes among the drops. */
+static size_t drops_words(size_t count)
+{
+    return tape_words(count) +
+           checkpoints_in(count) * (sizeof(struct checkpoint) / sizeof(uint16_t));
+}
+
 /* The index of those of a tape of so many words, all 0. */
 static uint32_t drops_add(struct cells *cells, size_t count)
 {
-    const size_t at = cells->drops_used, words = tape_words(count);
+    const size_t at = cells->drops_used, words = drops_words(count);
 
     if (cells->drops_room - at < words) {
         cells->drops_room = 2 * (cells->drops_room + words);
         cells->drops = memory_resize(cells->drops, cells->drops_room, sizeof *cells->drops);
     }
-    memset(cells->drops + at, 0, count * sizeof *cells->drops);
+    memset(cells->drops + at, 0, words * sizeof *cells->drops);
     cells->drops_used += words;
     return (uint32_t)at;
 }
@@ -288,8 +304,35 @@ static vb choose_space(struct lanes *c, vb m, int lane)
     return m;
 }
 
+/* Runs a cube's tape for what its children leave out. `past`: NULL, or as it was before an edit.
+ * False: the distances in their middles are those of then. */
+static bool run_for_drops(struct machine *v, const struct cells *cells, const struct cell *cell,
+                          const struct tape_past *past)
+{
+    const uint32_t *tape = cell_tape(cells, cell);
+    struct checkpoints checkpoints = {.room = v->drops + tape_words(cell->count),
+                                      .most = checkpoints_in(cell->count),
+                                      .note = CHECKPOINT_WORDS,
+                                      .ended = cell->count};
+    uint32_t begun = 0;
+
+    v->checkpoints = checkpoints.most > 0 ? &checkpoints : NULL;
+    if (past && v->checkpoints) {
+        checkpoints.shift = cell->count - past->count;
+        checkpoints.same = cell->count - past->last;
+        begun = begin_again(v, tape, past);
+    }
+    find_due(&checkpoints);
+    run_from(v, tape, begun, cell->count);
+    if (past && v->checkpoints) {
+        take_the_rest(v, past, begun, cell->count);
+    }
+    return checkpoints.ended == cell->count;
+}
+
 /* What each child can leave out, and the distances in their middles. `mask`: of who asks. */
-static void look_at_children(struct lanes *c, int32_t index, float mask)
+static void look_at_children(struct lanes *c, int32_t index, float mask,
+                             const struct tape_past *past)
 {
     struct machine *const v = c->machine;
     const vf asked = c->field_mask_0;
@@ -310,9 +353,9 @@ static void look_at_children(struct lanes *c, int32_t index, float mask)
         v->child = first;
         v->dropping = 0;
         v->radius = LOOSE * 0.5f * parent.half * 1.7320508f;
-        run(v, cell_tape(c->cells, &parent), parent.count);
+        const bool whole = run_for_drops(v, c->cells, &parent, past);
         c->cells->at[index].dropping |= v->dropping;
-        for (int k = 0; k < LANES && first + k < 8; k++) {
+        for (int k = 0; whole && k < LANES && first + k < 8; k++) {
             c->cells->at[parent.children + first + k].distance = v->d[0][k];
         }
     }
@@ -328,8 +371,8 @@ static void share_children(struct lanes *c, int32_t index, float mask)
     struct trunk_cube *shared = cell->trunk;
 
     if (trunk_take(trunk, &shared->state)) {
-        trunk_drops(trunk, shared, cell->count);
-        look_at_children(c, index, mask);
+        trunk_drops(trunk, shared, drops_words(cell->count));
+        look_at_children(c, index, mask, NULL);
         shared->dropping = cell->dropping;
         for (int k = 0; k < CUBE_CHILDREN; k++) {
             shared->distances[k] = children[k].distance;
@@ -375,7 +418,7 @@ static void cell_split(struct lanes *c, int32_t index, float mask)
         share_children(c, index, mask);
     } else {
         cell->drops = drops_add(c->cells, cell->count);
-        look_at_children(c, index, mask);
+        look_at_children(c, index, mask, NULL);
     }
 }
 

@@ -37,7 +37,8 @@ struct machine {
     /* NULL, or which operand each operation of the tape may leave out where `radius` around its
      * point is all that is asked for: the first in bit `child` and on, a bit for each lane, the
      * second in bit 8 + `child` and on. */
-    uint16_t *drops, dropping; /* and all of them in one */
+    uint16_t *drops, dropping;       /* and all of them in one */
+    struct checkpoints *checkpoints; /* of that tape, or NULL */
     float radius;
     vf loose[FIELD_SLOTS_MAX]; /* so much more than the way to them distances there may differ */
     int child;
@@ -85,6 +86,15 @@ static vf looseness(const struct machine *v, const struct operation *in)
 static const struct operation_kind *kind_of(const struct machine *v, const struct operation *in)
 {
     return &v->c->program->kinds[in->kind];
+}
+
+static void run_empty(struct machine *v, uint16_t slot)
+{
+    v->d[slot] = vf_all(FIELD_FAR);
+    v->loose[slot] = vf_zero;
+    if (v->mixtures) {
+        spmd_mixture_far(v->c, v->m, v->mixtures[slot]);
+    }
 }
 
 static void run_shape(struct machine *v, const struct operation *in)
@@ -190,11 +200,8 @@ static size_t run_loop(struct machine *v, const struct operation *in, size_t at)
     memcpy(open->cell, open->first, sizeof open->cell);
     open->before = v->m;
     open->left = spmd_cell_count(c, v->m, open->first, open->last);
-    v->d[in->a] = vf_all(FIELD_FAR);
+    run_empty(v, in->a);
     v->loose[in->a] = vf_all(kind->partial ? c->own[kind->partial] * (float)FIELD_FAR : 0.0f);
-    if (v->mixtures) {
-        spmd_mixture_far(c, v->m, v->mixtures[in->a]);
-    }
     v->m &= open->left > 0.0f;
     if (!lanes_any(v->m)) {
         v->m = open->before;
@@ -245,12 +252,15 @@ static void run_move(struct machine *v, const struct operation *in, bool negated
     }
 }
 
-static void run(struct machine *v, const uint32_t *tape, size_t count)
+#include "checkpoints.c"
+
+/* From word i on. */
+static void run_from(struct machine *v, const uint32_t *tape, size_t i, size_t count)
 {
     struct lanes *c = v->c;
     const struct engine_program *program = c->program;
 
-    for (size_t i = 0; i < count;) {
+    while (i < count) {
         const uint32_t word = tape[i];
         const struct operation *in = &program->operations[word & TAPE_INDEX];
         if (word & (TAPE_MOVE | TAPE_NEGATE)) {
@@ -262,11 +272,7 @@ static void run(struct machine *v, const uint32_t *tape, size_t count)
         c->own = c->params + 4 * (size_t)in->params;
         switch (in->op) {
         case FIELD_EMPTY:
-            v->d[in->a] = vf_all(FIELD_FAR);
-            if (v->mixtures) {
-                spmd_mixture_far(c, v->m, v->mixtures[in->a]);
-            }
-            v->loose[in->a] = vf_zero;
+            run_empty(v, in->a);
             break;
         case FIELD_SHAPE:
             run_shape(v, in);
@@ -276,6 +282,9 @@ static void run(struct machine *v, const uint32_t *tape, size_t count)
                 record(v, in, i);
             }
             run_combine(v, in);
+            if (v->drops && in->a == 0 && knows_the_rest(v, (uint32_t)i + 1)) {
+                return;
+            }
             break;
         case FIELD_DISTANCE:
             set_distance(v, in->a, CALL(change_function, function)(c, v->m, v->d[in->a]));
@@ -305,12 +314,18 @@ static void run(struct machine *v, const uint32_t *tape, size_t count)
     }
 }
 
+static void run(struct machine *v, const uint32_t *tape, size_t count)
+{
+    run_from(v, tape, 0, count);
+}
+
 static struct machine *machine_of(struct machine *v, struct lanes *c, vb m, const vf *p)
 {
     v->c = c;
     v->m = m;
     v->mixtures = NULL;
     v->drops = NULL;
+    v->checkpoints = NULL;
     v->depth = 0;
     memcpy(v->p[0], p, sizeof v->p[0]);
     return v;

@@ -13,7 +13,8 @@ struct renewal {
     uint32_t edit;          /* its number */
     float mask;             /* of the space */
     uint16_t *drops;        /* what children left out before, while they are looked at again */
-    size_t room;
+    struct checkpoint *checkpoints; /* of then */
+    size_t room, checkpoint_room;
 };
 
 /* What bound_at() and is_worth_splitting() ask of a cube. */
@@ -34,15 +35,38 @@ static bool answers_differ(struct answers a, struct answers b)
 }
 
 /* Who takes the second operand alone does not ask the operation's numbers. */
-static bool has_changed(const struct renewal *r, const struct cell *cell)
+static bool word_has_changed(const struct renewal *r, uint32_t word)
+{
+    return !(word & (TAPE_MOVE | TAPE_NEGATE)) && r->changed[word & TAPE_INDEX];
+}
+
+/* How many words of a tape come before the first that has changed; `most`: look no further. */
+static uint32_t count_before(const struct renewal *r, const struct cell *cell, uint32_t most)
 {
     const uint32_t *tape = cell_tape(r->c->cells, cell);
-    bool any = false;
+    uint32_t i = 0;
 
-    for (uint32_t i = 0; i < cell->count && !any; i++) {
-        any = !(tape[i] & (TAPE_MOVE | TAPE_NEGATE)) && r->changed[tape[i] & TAPE_INDEX];
+    while (i < most && !word_has_changed(r, tape[i])) {
+        i++;
     }
-    return any;
+    return i;
+}
+
+/* How many come behind the last one. */
+static uint32_t count_behind(const struct renewal *r, const struct cell *cell, uint32_t most)
+{
+    const uint32_t *end = cell_tape(r->c->cells, cell) + cell->count;
+    uint32_t i = 0;
+
+    while (i < most && !word_has_changed(r, end[-1 - (int64_t)i])) {
+        i++;
+    }
+    return i;
+}
+
+static bool has_changed(const struct renewal *r, const struct cell *cell)
+{
+    return count_before(r, cell, cell->count) < cell->count;
 }
 
 /* A cube as it was: its tape, whether that is another one now, whether its words are written over,
@@ -50,11 +74,30 @@ static bool has_changed(const struct renewal *r, const struct cell *cell)
 struct past {
     bool other, lost, led;
     uint32_t count;
+    uint32_t first, last; /* words at either end that are those of the tape now */
 };
 
+/* Of two tapes. */
+static void count_same(const uint32_t *before, uint32_t before_count, const uint32_t *now,
+                       uint32_t count, struct past *out)
+{
+    const uint32_t most = before_count < count ? before_count : count;
+
+    out->first = out->last = 0;
+    while (out->first < most && before[out->first] == now[out->first]) {
+        out->first++;
+    }
+    before += before_count;
+    now += count;
+    while (out->first + out->last < most &&
+           before[-1 - (int64_t)out->last] == now[-1 - (int64_t)out->last]) {
+        out->last++;
+    }
+}
+
 /* The cube's tape of its parent's; false: it is the one that it had. `same`: as far as that goes
- * by its parent. `*lost`: of its parent's words, then of its own. */
-static bool make_again(struct renewal *r, int32_t at, bool same, bool *lost)
+ * by its parent. `own->lost`: of its parent's words, then of its own. */
+static bool make_again(struct renewal *r, int32_t at, bool same, struct past *own)
 {
     struct cells *cells = r->c->cells;
     struct cell *cell = &cells->at[at];
@@ -62,7 +105,8 @@ static bool make_again(struct renewal *r, int32_t at, bool same, bool *lost)
     const struct cell before = *cell;
     const size_t used = cells->used;
 
-    *lost = *lost && !before.owns && !before.words; /* they were its parent's */
+    own->lost = own->lost && !before.owns && !before.words; /* they were its parent's */
+    own->first = own->last = same ? before.count : 0;
     if (same) {
         return false;
     }
@@ -74,9 +118,12 @@ static bool make_again(struct renewal *r, int32_t at, bool same, bool *lost)
         return true;
     }
     make_tape(r->c, parent, (int)(at - parent->children), cell);
-    if (!*lost && cell->count == before.count &&
-        memcmp(cell_tape(cells, cell), cell_tape(cells, &before),
-               cell->count * sizeof *cells->tapes) == 0) {
+    if (!own->lost) {
+        count_same(cell_tape(cells, &before), before.count, cell_tape(cells, cell), cell->count,
+                   own);
+    }
+    if (own->first == cell->count && cell->count == before.count) {
+        own->last = own->first;
         cells->used = used;
         cell->tape = before.tape;
         cell->words = before.words;
@@ -91,7 +138,7 @@ static bool make_again(struct renewal *r, int32_t at, bool same, bool *lost)
         cells->used = used;
         cell->tape = before.tape;
         cells->wasted += had - takes;
-        *lost = true;
+        own->lost = true;
     } else {
         cells->wasted += had;
     }
@@ -130,16 +177,17 @@ static void renew_cell(struct renewal *r, int32_t at, const struct cell *before,
 {
     struct cells *cells = r->c->cells;
     struct cell *cell = &cells->at[at];
-    bool lost = parent.lost;
-    const bool other = make_again(r, at, same, &lost);
-    const bool run = cell->made && (other || has_changed(r, cell));
+    struct past own = {.lost = parent.lost, .count = before->count};
+
+    own.other = make_again(r, at, same, &own);
+    const bool run = cell->made && (own.other || has_changed(r, cell));
     const struct answers now = answers_of(cell, cells->at[cell->parent].count);
-    const bool led = parent.led || answers_differ(now, answers_of(before, parent.count));
+    own.led = parent.led || answers_differ(now, answers_of(before, parent.count));
 
     if (run || !cell->made) { /* its tape is not made yet, but is another one */
         cells->news[at].run = r->edit;
     }
-    if (led || (now.bounds && memcmp(&cell->distance, &before->distance, sizeof(float)) != 0)) {
+    if (own.led || (now.bounds && memcmp(&cell->distance, &before->distance, sizeof(float)) != 0)) {
         cells->news[at].found = r->edit;
     }
     if (cell->children && run && cell->count > GROWN * before->count) {
@@ -149,8 +197,8 @@ static void renew_cell(struct renewal *r, int32_t at, const struct cell *before,
     if (!cell->children && run) {
         cell->trunk = NULL; /* what is shared was of other numbers */
     } else if (cell->children && run) {
-        renew_children(r, at, (struct past){other, lost, led, before->count});
-    } else if (cell->children && led) {
+        renew_children(r, at, own);
+    } else if (cell->children && own.led) {
         tell_below(r, at);
     }
 }
@@ -162,44 +210,84 @@ static void own_drops(struct cells *cells, struct cell *cell)
     cell->trunk = NULL;
 }
 
-/* Bits of children that leave out other operands than before, as in `drops`. */
-static uint16_t look_again(struct renewal *r, int32_t at)
+/* What is known of the tape that a cube had, taken aside: its drops will be written over. */
+static struct tape_past take_past(struct renewal *r, const struct cell *cell, struct past past)
+{
+    const uint16_t *drops = cell_drops(r->c->cells, cell);
+    const size_t most = checkpoints_in(past.count);
+    size_t count = 0;
+
+    if (past.count > r->room) {
+        r->room = 2 * past.count;
+        r->drops = memory_resize(r->drops, r->room, sizeof *r->drops);
+    }
+    if (most > r->checkpoint_room) {
+        r->checkpoint_room = 2 * most;
+        r->checkpoints = memory_resize(r->checkpoints, r->checkpoint_room, sizeof *r->checkpoints);
+    }
+    memcpy(r->drops, drops, past.count * sizeof *drops);
+    if (most > 0) {
+        memcpy(r->checkpoints, drops + tape_words(past.count), most * sizeof *r->checkpoints);
+    }
+    while (count < most && r->checkpoints[count].at > 0) {
+        count++;
+    }
+    return (struct tape_past){.count = past.count,
+                              .first = count_before(r, cell, past.first),
+                              .last = count_behind(r, cell, past.last),
+                              .drops = r->drops,
+                              .checkpoints = r->checkpoints,
+                              .checkpoint_count = count};
+}
+
+/* Of what is left out; with `others`, of where these differ. */
+static uint16_t union_of(const uint16_t *drops, const uint16_t *others, size_t count)
+{
+    const size_t at_once = sizeof(uint64_t) / sizeof(uint16_t);
+    uint64_t all = 0;
+    size_t i = 0;
+
+    for (; i + at_once <= count; i += at_once) {
+        uint64_t a, b = 0;
+        memcpy(&a, drops + i, sizeof a);
+        if (others) {
+            memcpy(&b, others + i, sizeof b);
+        }
+        all |= a ^ b;
+    }
+    for (; i < count; i++) {
+        all |= others ? drops[i] ^ others[i] : drops[i];
+    }
+    return (uint16_t)(all | all >> 16 | all >> 32 | all >> 48);
+}
+
+/* Bits of children that leave out other operands than before, as in `drops`, where the tape is the
+ * same. */
+static uint16_t look_again(struct renewal *r, int32_t at, struct past past)
 {
     struct cells *cells = r->c->cells;
     struct cell *cell = &cells->at[at];
-    const size_t bytes = cell->count * sizeof *r->drops;
-    uint16_t changed = 0;
+    const struct tape_past known = take_past(r, cell, past);
+    const bool outgrown = tape_words(cell->count) > tape_words(past.count);
 
-    if (cell->count > r->room) {
-        r->room = 2 * cell->count;
-        r->drops = memory_resize(r->drops, r->room, sizeof *r->drops);
-    }
-    memcpy(r->drops, cell_drops(cells, cell), bytes);
-    if (cell->trunk) {
+    if (cell->trunk || outgrown) {
+        cells->wasted += cell->trunk ? 0 : drops_words(past.count) / 2; /* a word for two */
         own_drops(cells, cell);
     }
-    uint16_t *drops = cell_drops(cells, cell);
-    memset(drops, 0, bytes);
-    cell->dropping = 0;
-    look_at_children(r->c, at, r->mask);
-    for (size_t i = 0; i < cell->count; i++) {
-        changed |= r->drops[i] ^ drops[i];
-    }
-    return changed;
+    memset(cell_drops(cells, cell), 0, drops_words(cell->count) * sizeof *r->drops);
+    look_at_children(r->c, at, r->mask, &known);
+    const uint16_t *drops = cell_drops(cells, cell);
+    cell->dropping = union_of(drops, NULL, cell->count);
+    return past.other ? 0 : union_of(drops, known.drops, cell->count);
 }
 
 static void renew_children(struct renewal *r, int32_t at, struct past past)
 {
     struct cells *cells = r->c->cells;
-    struct cell *cell = &cells->at[at], before[8];
+    struct cell before[8];
 
-    memcpy(before, cells->at + cell->children, sizeof before);
-    if (cell->count > past.count &&
-        (cell->trunk || tape_words(cell->count) > tape_words(past.count))) {
-        cells->wasted += cell->trunk ? 0 : tape_words(past.count) / 2; /* a word for two */
-        own_drops(cells, cell);
-    }
-    const uint16_t changed = look_again(r, at);
+    memcpy(before, cells->at + cells->at[at].children, sizeof before);
+    const uint16_t changed = look_again(r, at, past);
     for (int k = 0; k < 8; k++) {
         const bool same = !past.other && !(changed >> k & 0x101);
         renew_cell(r, cells->at[at].children + k, &before[k], past, same);
@@ -233,7 +321,7 @@ static void compact(struct cells *cells)
             const uint32_t drops = cell->drops;
             cell->drops = drops_add(cells, cell->count);
             memcpy(cells->drops + cell->drops, old.drops + drops,
-                   cell->count * sizeof *cells->drops);
+                   drops_words(cell->count) * sizeof *cells->drops);
         }
     }
     free(before);
@@ -246,19 +334,21 @@ static struct past renew_root(struct renewal *r)
 {
     struct cells *cells = r->c->cells;
     struct cell *root = &cells->at[0];
-    const size_t count = r->c->program->count;
+    const uint32_t count = (uint32_t)r->c->program->count;
+    const size_t used = cells->used;
     struct past past = {.count = root->count};
-    const uint32_t *words = cell_tape(cells, root);
+    const uint32_t tape = add_whole_tape(cells, count);
 
-    past.other = root->count != count;
-    for (size_t i = 0; i < count && !past.other; i++) {
-        past.other = words[i] != i;
-    }
+    count_same(cell_tape(cells, root), root->count, cells->tapes + tape, count, &past);
+    past.other = past.first < count || count != root->count;
     if (past.other) {
-        root->tape = add_whole_tape(cells, count);
-        root->count = (uint32_t)count;
+        root->tape = tape;
+        root->count = count;
         root->splits = count > CELL_SHORT;
         cells->wasted += past.count;
+    } else {
+        past.last = count;
+        cells->used = used;
     }
     return past;
 }
@@ -302,6 +392,7 @@ static void renew_spaces(struct engine_program *program, struct cells *spaces, c
         renew_cells(&r);
     }
     free(r.drops);
+    free(r.checkpoints);
     frames_destroy(program, c->frames);
     free(c->machine);
     free(c);

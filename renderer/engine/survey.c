@@ -50,7 +50,7 @@ static void look_anew(struct lanes *c, int32_t at, float mask)
     c->cells->drops_used = 0;
     cell->drops = drops_add(c->cells, cell->count);
     cell->dropping = 0;
-    look_at_children(c, at, mask);
+    look_at_children(c, at, mask, NULL);
 }
 
 /* Its children stay as they are. */

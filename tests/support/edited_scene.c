@@ -30,7 +30,7 @@ static void write_scattered(struct random *random, FILE *out, int count, size_t 
 
     static const char *const types[] = {"sphere", "box", "torus", "capsule"};
 
-    fputs("'root':{'id':'root','type':'union','children':[{'id':'floor','type':'plane'}", out);
+    fputs("{'id':'shapes','type':'union','children':[{'id':'floor','type':'plane'}", out);
     for (int i = 0; i < count; i++) {
         fprintf(out,
                 ",{'id':'s%d','type':'%s','material':'m%d','transform':{'translation':"
@@ -39,7 +39,7 @@ static void write_scattered(struct random *random, FILE *out, int count, size_t 
                 random_between(random, -3, 3), random_between(random, 0, 0.6),
                 random_between(random, -3, 3), size, size, size * random_between(random, 0.5, 1.5));
     }
-    fputs("]}}", out);
+    fputs("]}", out);
 }
 
 /* Of all types: repeats and mirrors, blends and cuts. */
@@ -88,7 +88,21 @@ struct scene *edited_scene_scattered(struct random *random, int count, size_t ma
     size_t length = 0;
     FILE *out = begin_text(&text, &length);
 
+    fputs("'root':", out);
     write_scattered(random, out, count, materials);
+    fputs("}", out);
+    return end_text(out, &text);
+}
+
+struct scene *edited_scene_twisted(struct random *random, int count, size_t materials)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = begin_text(&text, &length);
+
+    fputs("'root':{'type':'twist','params':{'rate':0.1},'children':[", out);
+    write_scattered(random, out, count, materials);
+    fputs("]}}", out);
     return end_text(out, &text);
 }
 
@@ -109,9 +123,17 @@ struct scene *edited_scene(struct random *random, size_t life, int count)
                            : edited_scene_scattered(random, count, 3);
 }
 
+/* What has the shapes as its children. */
+static const struct node *shapes_of(const struct scene *scene)
+{
+    return scene->root->child_count > 1 ? scene->root : scene->root->children[0];
+}
+
 const struct node *edited_scene_child(struct random *random, const struct scene *scene)
 {
-    return scene->root->children[random_below(random, scene->root->child_count)];
+    const struct node *shapes = shapes_of(scene);
+
+    return shapes->children[random_below(random, shapes->child_count)];
 }
 
 /* Something small goes a small way, mostly; numbers, materials, the camera and the floor; lights;
@@ -144,7 +166,7 @@ cJSON *edited_scene_ops(struct random *random, const struct scene *scene, int nu
         return edits_format(
             "[{'op':'insert','into':'/nodes/%s','before':null,'value':{'id':'new%d',"
             "'type':'sphere','transform':{'translation':[0,%.3f,0],'scale':0.4}}}]",
-            scene->root->id, number, random_between(random, -1, 1));
+            shapes_of(scene)->id, number, random_between(random, -1, 1));
     }
     if (what == 11) {
         return edits_format("[{'op':'remove','at':'/nodes/%s'}]", node->id);
