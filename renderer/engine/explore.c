@@ -101,7 +101,7 @@ static void explore_one(struct expedition *e, struct lanes *c, struct siblings *
 
     cells->drops_used = 0;
     cell_split(c, (int32_t)at, e->mask);
-    make_siblings(c, &cells->at[at], siblings);
+    make_siblings(c, &cells->at[at], 0xff, siblings);
     for (int k = 0; k < CUBE_CHILDREN; k++) {
         struct cell *child = &cells->at[cells->at[at].children + k];
         child->made = true;

@@ -73,7 +73,7 @@ static void explore_below(struct revision *r, int32_t at)
     explored->cells.drops_used = 0;
     cell_split(c, at, r->expedition->mask);
     explored_put_children(explored, explored_cell(r, at));
-    make_siblings(c, explored_cell(r, at), &r->siblings);
+    make_siblings(c, explored_cell(r, at), 0xff, &r->siblings);
     const int32_t children = explored_cell(r, at)->children;
     for (int k = 0; k < CUBE_CHILDREN; k++) {
         explored_cell(r, children + k)->made = true;
@@ -125,7 +125,7 @@ static void explore_children_again(struct revision *r, int32_t at, struct prior 
 
     memcpy(before, cells->at + children, sizeof before);
     look_anew(r->renewal.c, at, r->expedition->mask);
-    make_siblings(r->renewal.c, cell, &r->siblings);
+    make_siblings(r->renewal.c, cell, 0xff, &r->siblings);
     struct prior priors[CUBE_CHILDREN];
     for (int k = 0; k < CUBE_CHILDREN; k++) {
         priors[k].other = follow_parent(r, cell, k, past);

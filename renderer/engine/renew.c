@@ -15,6 +15,7 @@ struct renewal {
     uint16_t *drops;        /* what children left out before, while they are looked at again */
     struct checkpoint *checkpoints; /* of then */
     size_t room, checkpoint_room;
+    struct siblings siblings; /* tapes of the children of the cube that is renewed */
 };
 
 /* What bound_at() and is_worth_splitting() ask of a cube. */
@@ -95,54 +96,73 @@ static void count_same(const uint32_t *before, uint32_t before_count, const uint
     }
 }
 
-/* The cube's tape of its parent's; false: it is the one that it had. `same`: as far as that goes
- * by its parent. `own->lost`: of its parent's words, then of its own. */
-static bool make_again(struct renewal *r, int32_t at, bool same, struct past *own)
+/* The words of a cube's own tape: in the place that it had where they fit. */
+static void set_tape(struct cells *cells, struct cell *cell, const struct cell *before,
+                     const uint32_t *words, struct past *own)
+{
+    const size_t had = before->owns ? tape_words(before->count) : 0;
+    const size_t takes = tape_words(cell->count);
+
+    cell->words = NULL;
+    cell->owns = true;
+    if (takes <= had) {
+        cell->tape = before->tape;
+        cells->wasted += had - takes;
+        own->lost = true;
+    } else {
+        tape_room(cells, takes);
+        cell->tape = (uint32_t)cells->used;
+        cells->used += takes;
+        cells->wasted += had;
+    }
+    memcpy(cells->tapes + cell->tape, words, cell->count * sizeof *words);
+}
+
+/* The cube's tape of its parent's; false: it is the one that it had. `own->lost`: of its parent's
+ * words, then of its own. */
+static bool make_again(struct renewal *r, int32_t at, const struct cell *before, struct past *own)
 {
     struct cells *cells = r->c->cells;
     struct cell *cell = &cells->at[at];
     const struct cell *parent = &cells->at[cell->parent];
-    const struct cell before = *cell;
-    const size_t used = cells->used;
+    const int number = (int)(at - parent->children);
+    const bool owns = r->siblings.own >> number & 1;
+    const uint32_t *words = owns ? r->siblings.tapes[number] : cell_tape(cells, parent);
+    const uint32_t count = owns ? r->siblings.counts[number] : parent->count;
 
-    own->lost = own->lost && !before.owns && !before.words; /* they were its parent's */
-    own->first = own->last = same ? before.count : 0;
-    if (same) {
+    if (cell->made && !own->lost) {
+        count_same(cell_tape(cells, before), before->count, words, count, own);
+    }
+    if (cell->made && own->first == count && count == before->count) {
+        own->last = count;
         return false;
     }
-    cell->tape = parent->tape;
-    cell->words = parent->words;
-    cell->count = parent->count;
-    cell->owns = false;
-    if (!cell->made) {
+    cell->count = count;
+    if (cell->made && owns) {
+        set_tape(cells, cell, before, words, own);
         return true;
     }
-    make_tape(r->c, parent, (int)(at - parent->children), cell);
-    if (!own->lost) {
-        count_same(cell_tape(cells, &before), before.count, cell_tape(cells, cell), cell->count,
-                   own);
-    }
-    if (own->first == cell->count && cell->count == before.count) {
-        own->last = own->first;
-        cells->used = used;
-        cell->tape = before.tape;
-        cell->words = before.words;
-        cell->owns = before.owns;
-        return false;
-    }
-    const size_t had = before.owns ? tape_words(before.count) : 0;
-    const size_t takes = tape_words(cell->count);
-    if (cell->owns && takes <= had) { /* in the same place */
-        memcpy(cells->tapes + before.tape, cells->tapes + cell->tape,
-               cell->count * sizeof *cells->tapes);
-        cells->used = used;
-        cell->tape = before.tape;
-        cells->wasted += had - takes;
-        own->lost = true;
-    } else {
-        cells->wasted += had;
-    }
+    cells->wasted += before->owns ? tape_words(before->count) : 0;
+    cell->tape = parent->tape;
+    cell->words = parent->words;
+    cell->owns = false;
     return true;
+}
+
+/* How a child's tape is another one than before. `parent`: how its parent's is. `same`: that is
+ * not, and the child leaves out of it what it did. */
+static struct past renew_tape(struct renewal *r, int32_t at, const struct cell *before,
+                              struct past parent, bool same)
+{
+    struct past own = {.lost = parent.lost && !before->owns && !before->words,
+                       .count = before->count};
+
+    if (same) {
+        own.first = own.last = before->count;
+    } else {
+        own.other = make_again(r, at, before, &own);
+    }
+    return own;
 }
 
 /* All below a cube in which bound_at() may take another way. */
@@ -171,17 +191,15 @@ static void forget_below(struct cells *cells, int32_t at)
 
 static void renew_children(struct renewal *r, int32_t at, struct past past);
 
-/* `before`: as it was. `same`: its parent's tape and what it leaves out of that are. */
+/* `before`: as it was. */
 static void renew_cell(struct renewal *r, int32_t at, const struct cell *before, struct past parent,
-                       bool same)
+                       struct past own)
 {
     struct cells *cells = r->c->cells;
     struct cell *cell = &cells->at[at];
-    struct past own = {.lost = parent.lost, .count = before->count};
-
-    own.other = make_again(r, at, same, &own);
     const bool run = cell->made && (own.other || has_changed(r, cell));
     const struct answers now = answers_of(cell, cells->at[cell->parent].count);
+
     own.led = parent.led || answers_differ(now, answers_of(before, parent.count));
 
     if (run || !cell->made) { /* its tape is not made yet, but is another one */
@@ -284,13 +302,22 @@ static uint16_t look_again(struct renewal *r, int32_t at, struct past past)
 static void renew_children(struct renewal *r, int32_t at, struct past past)
 {
     struct cells *cells = r->c->cells;
-    struct cell before[8];
+    struct cell before[CUBE_CHILDREN];
+    struct past own[CUBE_CHILDREN];
+    unsigned wanted = 0;
 
     memcpy(before, cells->at + cells->at[at].children, sizeof before);
     const uint16_t changed = look_again(r, at, past);
-    for (int k = 0; k < 8; k++) {
-        const bool same = !past.other && !(changed >> k & 0x101);
-        renew_cell(r, cells->at[at].children + k, &before[k], past, same);
+    const unsigned others = past.other ? 0xff : (changed | changed >> 8) & 0xff;
+    for (int k = 0; k < CUBE_CHILDREN; k++) {
+        wanted |= before[k].made ? others & 1u << k : 0;
+    }
+    make_siblings(r->c, &cells->at[at], wanted, &r->siblings);
+    for (int k = 0; k < CUBE_CHILDREN; k++) {
+        own[k] = renew_tape(r, cells->at[at].children + k, &before[k], past, !(others >> k & 1));
+    }
+    for (int k = 0; k < CUBE_CHILDREN; k++) {
+        renew_cell(r, cells->at[at].children + k, &before[k], past, own[k]);
     }
 }
 
@@ -393,6 +420,7 @@ static void renew_spaces(struct engine_program *program, struct cells *spaces, c
     }
     free(r.drops);
     free(r.checkpoints);
+    siblings_finish(&r.siblings);
     frames_destroy(program, c->frames);
     free(c->machine);
     free(c);

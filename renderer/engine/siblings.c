@@ -6,7 +6,7 @@ struct siblings {
     uint32_t *words;
     size_t room;
     uint32_t *tapes[CUBE_CHILDREN], counts[CUBE_CHILDREN];
-    unsigned own; /* bits of those who leave something out; others have their parent's */
+    unsigned own; /* bits of those wanted who leave something out; others have their parent's */
 };
 
 /* What is asked for, from behind: bits of the children that need a distance, or a point. */
@@ -49,7 +49,7 @@ static uint32_t siblings_loop(struct siblings *siblings, struct needs *needs,
     return in->length;
 }
 
-static void siblings_begin(struct siblings *siblings, const struct cell *parent)
+static void siblings_begin(struct siblings *siblings, const struct cell *parent, unsigned wanted)
 {
     const size_t room = (size_t)CUBE_CHILDREN * parent->count;
 
@@ -57,7 +57,7 @@ static void siblings_begin(struct siblings *siblings, const struct cell *parent)
         siblings->room = room;
         siblings->words = memory_resize(siblings->words, room, sizeof *siblings->words);
     }
-    siblings->own = (parent->dropping | parent->dropping >> 8) & 0xff;
+    siblings->own = (parent->dropping | parent->dropping >> 8) & wanted;
     for (int k = 0; k < CUBE_CHILDREN; k++) {
         siblings->tapes[k] = siblings->words + (size_t)(k + 1) * parent->count;
     }
@@ -71,7 +71,8 @@ static void siblings_end(struct siblings *siblings, const struct cell *parent)
     }
 }
 
-static void make_siblings(const struct lanes *c, const struct cell *parent,
+/* `wanted`: a bit for each. */
+static void make_siblings(const struct lanes *c, const struct cell *parent, unsigned wanted,
                           struct siblings *siblings)
 {
     const struct operation *operations = c->program->operations;
@@ -79,7 +80,7 @@ static void make_siblings(const struct lanes *c, const struct cell *parent,
     const uint16_t *drops = cell_drops(c->cells, parent);
     struct needs needs = {{0}, {0}};
 
-    siblings_begin(siblings, parent);
+    siblings_begin(siblings, parent, wanted);
     needs.distance[0] = (uint8_t)siblings->own;
     for (uint32_t i = siblings->own ? parent->count : 0; i-- > 0;) {
         const uint32_t word = from[i];

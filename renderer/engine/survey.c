@@ -64,7 +64,7 @@ static bool survey_one(struct survey *s, struct lanes *c, struct siblings *sibli
         before[k] = children[k].distance;
     }
     look_anew(c, at, s->expedition->mask);
-    make_siblings(c, cell, siblings);
+    make_siblings(c, cell, 0xff, siblings);
     for (int k = 0; k < CUBE_CHILDREN; k++) {
         same = same && sibling_is_same(siblings, c->cells, cell, k) &&
                memcmp(&children[k].distance, &before[k], sizeof before[k]) == 0;

@@ -11,6 +11,8 @@
 
 #include "interpret.c"
 #include "points.c"
+#include "siblings.c"
+
 #include "renew.c"
 #include "textures.c"
 #include "tile.c"
@@ -18,8 +20,6 @@
 
 #include "environment_texels.c"
 #include "threads.c"
-
-#include "siblings.c"
 
 #include "explore.c"
 #include "survey.c"
