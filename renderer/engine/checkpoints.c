@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* A long tape that is run again after an edit, for what a cube's children leave out, need not be
- * run whole. Between two operations where the first slot alone holds a distance, that distance is
- * all that is known. Such checkpoints are kept behind the drops of the tape. A run begins at the
- * last one before what has changed, and ends where one behind that is as it was. */
+ * run whole. Between two operations where the first slot alone holds a distance, that distance and
+ * the points that were made are all that is known. Such checkpoints are kept behind the drops of
+ * the tape. A run begins at the last one before what has changed, and ends where one behind that
+ * is as it was. */
 
 enum {
     CHECKPOINT_WORDS = 128, /* from one to the next, at least */
@@ -11,7 +12,8 @@ enum {
 
 /* In the middles of the children. */
 struct checkpoint {
-    uint32_t at; /* words before it; 0: it is none, nor is there one behind */
+    uint32_t at;     /* words before it; 0: it is none, nor is there one behind */
+    uint64_t points; /* a hash of those that were made before */
     float distance[CUBE_CHILDREN], loose[CUBE_CHILDREN];
 };
 
@@ -33,6 +35,7 @@ struct checkpoints {
     uint32_t same;                        /* the tape is as it was from here on */
     uint32_t due, note;                   /* where the next may be of use; where it is noted */
     uint32_t ended;                       /* where the run ended */
+    uint64_t points;                      /* as in a checkpoint */
 };
 
 static void checkpoint_put(struct checkpoints *w, const struct checkpoint *checkpoint)
@@ -46,14 +49,15 @@ static void checkpoint_put(struct checkpoints *w, const struct checkpoint *check
 
 static void find_due(struct checkpoints *w)
 {
-    const uint32_t ahead = w->ahead < w->end ? w->ahead->at + w->shift : UINT32_MAX;
-
-    w->due = ahead < w->note ? ahead : w->note;
+    w->due = w->note;
+    if (w->ahead < w->end && (int32_t)(w->ahead->at + w->shift - w->due) < 0) {
+        w->due = w->ahead->at + w->shift;
+    }
 }
 
 static struct checkpoint checkpoint_here(const struct machine *v, uint32_t at)
 {
-    struct checkpoint here = {.at = at};
+    struct checkpoint here = {.at = at, .points = v->checkpoints->points};
 
     for (int k = 0; k < CUBE_CHILDREN && k < LANES; k++) {
         here.distance[k] = v->d[0][k];
@@ -71,10 +75,11 @@ static bool knows_the_rest(struct machine *v, uint32_t at)
         return false;
     }
     const struct checkpoint here = checkpoint_here(v, at);
-    while (w->ahead < w->end && w->ahead->at + w->shift < at) {
+    while (w->ahead < w->end && (int32_t)(w->ahead->at + w->shift - at) < 0) {
         w->ahead++;
     }
     if (w->ahead < w->end && w->ahead->at + w->shift == at && at >= w->same &&
+        w->ahead->points == here.points &&
         memcmp(w->ahead->distance, here.distance, sizeof here.distance) == 0 &&
         memcmp(w->ahead->loose, here.loose, sizeof here.loose) == 0) {
         w->ended = at;
@@ -87,19 +92,42 @@ static bool knows_the_rest(struct machine *v, uint32_t at)
     return false;
 }
 
+/* One more (FNV-1a, over whole floats). */
+static void hash_point(struct checkpoints *w, const vf p[3])
+{
+    for (int k = 0; k < 3 * CUBE_CHILDREN; k++) {
+        const float number = p[k / CUBE_CHILDREN][k % CUBE_CHILDREN % LANES];
+        uint32_t bits;
+        memcpy(&bits, &number, sizeof bits);
+        w->points = (w->points ^ bits) * UINT64_C(0x100000001b3);
+    }
+}
+
+static void run_point(struct machine *v, const struct operation *in)
+{
+    const vf *const from = v->p[in->point];
+    vf *const to = v->p[in->out];
+
+    if (in->op == FIELD_TRANSFORM) {
+        place(v->c->own, from, to);
+    } else {
+        CALL(map_function, kind_of(v, in)->function)(v->c, v->m, from, to);
+    }
+    if (v->checkpoints && v->depth == 0) {
+        hash_point(v->checkpoints, to);
+    }
+}
+
 /* The points that the tape makes before a place, and the distance there. */
 static void go_to(struct machine *v, const uint32_t *tape, const struct checkpoint *checkpoint)
 {
     for (uint32_t i = 0; i < checkpoint->at; i++) {
         const struct operation *in = &v->c->program->operations[tape[i] & TAPE_INDEX];
-        v->c->own = v->c->params + 4 * (size_t)in->params;
         if (in->op == FIELD_LOOP) {
             i += in->length;
-        } else if (in->op == FIELD_TRANSFORM) {
-            place(v->c->own, v->p[in->point], v->p[in->out]);
-        } else if (in->op == FIELD_WARP) {
-            CALL(map_function, kind_of(v, in)->function)
-            (v->c, v->m, v->p[in->point], v->p[in->out]);
+        } else if (in->op == FIELD_TRANSFORM || in->op == FIELD_WARP) {
+            v->c->own = v->c->params + 4 * (size_t)in->params;
+            run_point(v, in);
         }
     }
     for (int k = 0; k < LANES; k++) {

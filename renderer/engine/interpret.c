@@ -290,10 +290,8 @@ static void run_from(struct machine *v, const uint32_t *tape, size_t i, size_t c
             set_distance(v, in->a, CALL(change_function, function)(c, v->m, v->d[in->a]));
             break;
         case FIELD_TRANSFORM:
-            place(c->own, v->p[in->point], v->p[in->out]);
-            break;
         case FIELD_WARP:
-            CALL(map_function, function)(c, v->m, v->p[in->point], v->p[in->out]);
+            run_point(v, in);
             break;
         case FIELD_AFTER:
             set_distance(

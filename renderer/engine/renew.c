@@ -279,6 +279,21 @@ static uint16_t union_of(const uint16_t *drops, const uint16_t *others, size_t c
     return (uint16_t)(all | all >> 16 | all >> 32 | all >> 48);
 }
 
+/* Bits of children that take the second operand of an operation that has changed: it may be negated
+ * now, or no more. */
+static uint16_t unlike(const struct renewal *r, const struct cell *cell,
+                       const struct tape_past *past)
+{
+    const uint32_t *tape = cell_tape(r->c->cells, cell);
+    const uint16_t *drops = cell_drops(r->c->cells, cell);
+    uint16_t bits = 0;
+
+    for (uint32_t i = past->first; i + past->last < cell->count; i++) {
+        bits |= word_has_changed(r, tape[i]) ? drops[i] & 0xff : 0;
+    }
+    return bits;
+}
+
 /* Bits of children that leave out other operands than before, as in `drops`, where the tape is the
  * same. */
 static uint16_t look_again(struct renewal *r, int32_t at, struct past past)
@@ -296,7 +311,7 @@ static uint16_t look_again(struct renewal *r, int32_t at, struct past past)
     look_at_children(r->c, at, r->mask, &known);
     const uint16_t *drops = cell_drops(cells, cell);
     cell->dropping = union_of(drops, NULL, cell->count);
-    return past.other ? 0 : union_of(drops, known.drops, cell->count);
+    return past.other ? 0 : union_of(drops, known.drops, cell->count) | unlike(r, cell, &known);
 }
 
 static void renew_children(struct renewal *r, int32_t at, struct past past)

@@ -15,6 +15,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/edited_scene.h"
 #include "tests/support/edits.h"
+#include "tests/support/json_text.h"
 
 enum { WIDTH = 76, HEIGHT = 60, EDITS = 36, EDITS_OF_A_LIFE = 6, SCATTERED = 160 };
 enum {
@@ -193,6 +194,67 @@ static void edits_of_many_shapes_change_what_they_have_to(void **state)
     }
 }
 
+/* No shape has changed, but all are elsewhere. */
+static void a_moved_mirror_moves_what_is_in_it(void **state)
+{
+    (void)state;
+    struct random random = {86};
+    struct job_desc desc = desc_of(0);
+
+    desc.width /= 2;
+    desc.height /= 2;
+    const struct pair pair = pair_of(edited_scene_mirrored(&random, MANY, 2), &desc);
+    static const double to[][2] = {{2, -1}, {-1.5, 1}, {0, 2.5}, {0, 0}};
+    for (size_t i = 0; i < sizeof to / sizeof to[0]; i++) {
+        cJSON *ops = edits_format(
+            "[{'op':'set','at':'/nodes/mirror/transform/translation','value':[%.9g,0,%.9g]}]",
+            to[i][0], to[i][1]);
+        assert_true(edit(&pair, ops));
+        check(&pair, &desc, ops);
+        cJSON_Delete(ops);
+    }
+    resident_destroy(pair.kept);
+    resident_destroy(pair.forgotten);
+}
+
+/* Deep in the box both take the second operand alone, but one negates it. What was seen from below
+ * is seen from above. */
+static void an_intersection_becomes_a_difference(void **state)
+{
+    static const char scene[] =
+        "{'format':'fieldcast/1','camera':{'position':[0,-6,2],'target':[0,0,0]},"
+        "'lights':[{'id':'sun','type':'directional','direction':[-0.5,-1,-0.3]}],"
+        "'root':{'id':'root','type':'union','children':[{'id':'cut','type':'%s','children':["
+        "{'type':'box','params':{'size':[6,4,6]},'transform':{'translation':[0,-1,0]}},"
+        "{'type':'union','children':[%s]}]},"
+        "{'type':'union','children':[%s]}]}}";
+    static const char holes[] = "{'type':'sphere','transform':{'translation':[0,1.2,0]}},"
+                                "{'type':'sphere','transform':{'translation':[0.3,0,0]}},"
+                                "{'type':'sphere','transform':{'translation':[0,0,0.3]}}";
+    static const char *const types[] = {"difference", "intersection", "difference"};
+    char others[2048] = "", text[4096];
+    struct job_desc desc = desc_of(0);
+
+    (void)state;
+    for (int i = 0; i < FEW; i++) {
+        const size_t length = strlen(others);
+        snprintf(others + length, sizeof others - length,
+                 "%s{'type':'sphere','transform':{'translation':[%d,0,-9]}}", i > 0 ? "," : "", i);
+    }
+    snprintf(text, sizeof text, scene, "intersection", holes, others);
+    const struct pair pair = pair_of(json_text_valid_scene(text), &desc);
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
+        cJSON *ops = edits_format("[{'op':'set','at':'/nodes/cut/type','value':'%s'},"
+                                  "{'op':'set','at':'/camera/position','value':[0,%d,2]}]",
+                                  types[i], i % 2 ? -6 : 6);
+        assert_true(edit(&pair, ops));
+        check(&pair, &desc, ops);
+        cJSON_Delete(ops);
+    }
+    resident_destroy(pair.kept);
+    resident_destroy(pair.forgotten);
+}
+
 /* Answers which part of the pixels was drawn. */
 static double go(const struct pair *pair, const struct job_desc *desc, const struct node *node,
                  double right, double up)
@@ -305,6 +367,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edits_change_what_they_have_to),
         cmocka_unit_test(edits_of_many_shapes_change_what_they_have_to),
+        cmocka_unit_test(a_moved_mirror_moves_what_is_in_it),
+        cmocka_unit_test(an_intersection_becomes_a_difference),
         cmocka_unit_test(a_small_move_draws_little),
         cmocka_unit_test(a_move_of_the_bounds_draws_little),
         cmocka_unit_test(a_shape_more_or_less_draws_little),

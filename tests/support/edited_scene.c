@@ -82,28 +82,34 @@ static struct scene *end_text(FILE *out, char **text)
     return scene;
 }
 
-struct scene *edited_scene_scattered(struct random *random, int count, size_t materials)
+/* `before`, `after`: of what they are in, in the text. */
+static struct scene *scattered(struct random *random, int count, size_t materials,
+                               const char *before, const char *after)
 {
     char *text = NULL;
     size_t length = 0;
     FILE *out = begin_text(&text, &length);
 
-    fputs("'root':", out);
+    fprintf(out, "'root':%s", before);
     write_scattered(random, out, count, materials);
-    fputs("}", out);
+    fprintf(out, "%s}", after);
     return end_text(out, &text);
+}
+
+struct scene *edited_scene_scattered(struct random *random, int count, size_t materials)
+{
+    return scattered(random, count, materials, "", "");
 }
 
 struct scene *edited_scene_twisted(struct random *random, int count, size_t materials)
 {
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = begin_text(&text, &length);
+    return scattered(random, count, materials, "{'type':'twist','params':{'rate':0.1},'children':[",
+                     "]}");
+}
 
-    fputs("'root':{'type':'twist','params':{'rate':0.1},'children':[", out);
-    write_scattered(random, out, count, materials);
-    fputs("]}}", out);
-    return end_text(out, &text);
+struct scene *edited_scene_mirrored(struct random *random, int count, size_t materials)
+{
+    return scattered(random, count, materials, "{'id':'mirror','type':'mirror','children':[", "]}");
 }
 
 static struct scene *scene_of_kinds(struct random *random)

@@ -10,8 +10,9 @@
 /* `count` small shapes on a plane, of the first materials; the third one is metal, the fourth
  * glass. */
 struct scene *edited_scene_scattered(struct random *random, int count, size_t materials);
-/* The same, twisted around Y. */
+/* The same, twisted around Y, or in the node `mirror`. */
 struct scene *edited_scene_twisted(struct random *random, int count, size_t materials);
+struct scene *edited_scene_mirrored(struct random *random, int count, size_t materials);
 /* By turns as many shapes on a plane, nodes of all types, the scene that has everything. */
 struct scene *edited_scene(struct random *random, size_t life, int count);
 const struct node *edited_scene_child(struct random *random, const struct scene *scene);
