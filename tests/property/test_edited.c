@@ -222,15 +222,16 @@ static void a_moved_mirror_moves_what_is_in_it(void **state)
 static void an_intersection_becomes_a_difference(void **state)
 {
     static const char scene[] =
-        "{'format':'fieldcast/1','camera':{'position':[0,-6,2],'target':[0,0,0]},"
+        "{'format':'fieldcast/1','camera':{'position':[0,-40,1],'target':[0,-10,0]},"
         "'lights':[{'id':'sun','type':'directional','direction':[-0.5,-1,-0.3]}],"
         "'root':{'id':'root','type':'union','children':[{'id':'cut','type':'%s','children':["
-        "{'type':'box','params':{'size':[6,4,6]},'transform':{'translation':[0,-1,0]}},"
+        "{'type':'box','params':{'size':[40,40,40]},'transform':{'translation':[0,-19,0]}},"
         "{'type':'union','children':[%s]}]},"
         "{'type':'union','children':[%s]}]}}";
-    static const char holes[] = "{'type':'sphere','transform':{'translation':[0,1.2,0]}},"
-                                "{'type':'sphere','transform':{'translation':[0.3,0,0]}},"
-                                "{'type':'sphere','transform':{'translation':[0,0,0.3]}}";
+    static const char holes[] =
+        "{'type':'cylinder','params':{'radius':3,'height':30}},"
+        "{'type':'cylinder','params':{'radius':3,'height':30},'transform':{'translation':[1,0,0]}},"
+        "{'type':'cylinder','params':{'radius':3,'height':30},'transform':{'translation':[0,0,1]}}";
     static const char *const types[] = {"difference", "intersection", "difference"};
     char others[2048] = "", text[4096];
     struct job_desc desc = desc_of(0);
@@ -239,14 +240,14 @@ static void an_intersection_becomes_a_difference(void **state)
     for (int i = 0; i < FEW; i++) {
         const size_t length = strlen(others);
         snprintf(others + length, sizeof others - length,
-                 "%s{'type':'sphere','transform':{'translation':[%d,0,-9]}}", i > 0 ? "," : "", i);
+                 "%s{'type':'sphere','transform':{'translation':[%d,0,-90]}}", i > 0 ? "," : "", i);
     }
     snprintf(text, sizeof text, scene, "intersection", holes, others);
     const struct pair pair = pair_of(json_text_valid_scene(text), &desc);
     for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
         cJSON *ops = edits_format("[{'op':'set','at':'/nodes/cut/type','value':'%s'},"
-                                  "{'op':'set','at':'/camera/position','value':[0,%d,2]}]",
-                                  types[i], i % 2 ? -6 : 6);
+                                  "{'op':'set','at':'/camera/position','value':[0,%d,1]}]",
+                                  types[i], i % 2 ? -40 : 40);
         assert_true(edit(&pair, ops));
         check(&pair, &desc, ops);
         cJSON_Delete(ops);
