@@ -94,6 +94,15 @@ static bool edit(const struct pair *pair, const cJSON *ops)
            resident_scene(pair->kept)->root->child_count > 0;
 }
 
+/* An edit that has to go, and its picture. Takes `ops`; answers which part of it was drawn. */
+static double follow(const struct pair *pair, const struct job_desc *desc, cJSON *ops)
+{
+    assert_true(edit(pair, ops));
+    const double part = check(pair, desc, ops);
+    cJSON_Delete(ops);
+    return part;
+}
+
 static void edits_change_what_they_have_to(void **state)
 {
     (void)state;
@@ -185,9 +194,7 @@ static void edits_of_many_shapes_change_what_they_have_to(void **state)
         for (int k = 0; k < EDITS_OF_MANY; k++) {
             cJSON *ops = k == 0 ? removal(REMOVED)
                                 : edited_scene_ops(&random, resident_scene(pairs[i].kept), k);
-            assert_true(edit(&pairs[i], ops));
-            check(&pairs[i], &desc, ops);
-            cJSON_Delete(ops);
+            follow(&pairs[i], &desc, ops);
         }
         resident_destroy(pairs[i].kept);
         resident_destroy(pairs[i].forgotten);
@@ -209,9 +216,7 @@ static void a_moved_mirror_moves_what_is_in_it(void **state)
         cJSON *ops = edits_format(
             "[{'op':'set','at':'/nodes/mirror/transform/translation','value':[%.9g,0,%.9g]}]",
             to[i][0], to[i][1]);
-        assert_true(edit(&pair, ops));
-        check(&pair, &desc, ops);
-        cJSON_Delete(ops);
+        follow(&pair, &desc, ops);
     }
     resident_destroy(pair.kept);
     resident_destroy(pair.forgotten);
@@ -248,9 +253,7 @@ static void an_intersection_becomes_a_difference(void **state)
         cJSON *ops = edits_format("[{'op':'set','at':'/nodes/cut/type','value':'%s'},"
                                   "{'op':'set','at':'/camera/position','value':[0,%d,1]}]",
                                   types[i], i % 2 ? -40 : 40);
-        assert_true(edit(&pair, ops));
-        check(&pair, &desc, ops);
-        cJSON_Delete(ops);
+        follow(&pair, &desc, ops);
     }
     resident_destroy(pair.kept);
     resident_destroy(pair.forgotten);
@@ -265,10 +268,8 @@ static double go(const struct pair *pair, const struct job_desc *desc, const str
         "[{'op':'set','at':'/nodes/%s/transform/translation','value':[%.9g,%.9g,%.9g]}]", node->id,
         at[0] + right, at[1] + up, at[2]);
 
-    assert_true(edit(pair, ops));
-    const double part = check(pair, desc, ops);
+    const double part = follow(pair, desc, ops);
     print_message("%.3f of the pixels were drawn\n", part);
-    cJSON_Delete(ops);
     return part;
 }
 
@@ -333,9 +334,7 @@ static void a_shape_more_or_less_draws_little(void **state)
     const struct pair pair = scattered(&random, MANY, &desc);
     for (size_t i = 0; i < sizeof edits / sizeof edits[0]; i++) {
         cJSON *ops = edits_parse(edits[i]);
-        assert_true(edit(&pair, ops));
-        assert_true(check(&pair, &desc, ops) <= 0.2);
-        cJSON_Delete(ops);
+        assert_true(follow(&pair, &desc, ops) <= 0.2);
     }
     resident_destroy(pair.kept);
     resident_destroy(pair.forgotten);
