@@ -74,6 +74,9 @@ export default defineConfig({
     test: {
         include: ["tests/**/*.test.ts", "tests/**/*.test.tsx"],
         exclude: ["tests/e2e/**"],
+        /* Half of the time is to read the page's modules: all files share them. */
+        pool: "threads",
+        isolate: false,
         testTimeout: 600_000 /* a slow machine is no fault of the code */,
     },
 });
