@@ -120,8 +120,8 @@ static bool are_near(size_t fresh, const struct engine_program *before,
     return fresh <= after->count / OTHER_PART && lost <= before->count / OTHER_PART;
 }
 
-/* In all tapes. Where all that stay have their indices, those that are gone may keep theirs: only
- * tapes that are made again have them (renew.c). */
+/* In all tapes. Those that hold one that is gone are other tapes then, and made again with those of
+ * their children (renew.c): its index may be another operation's. */
 static void rename_operations(struct cubes *cubes, const struct matches *matches)
 {
     for (int i = 0; matches->moved && i < ENGINE_THREADS * ENGINE_SPACES; i++) {

@@ -278,7 +278,7 @@ void matches_find(const struct matches_side *before, const struct matches_side *
     out->renumbered = is_renumbered(&s);
     match_changed(&s);
     for (size_t i = 0; i < out->before && !out->moved; i++) {
-        out->moved = out->now[i] != i && out->now[i] != MATCH_NONE;
+        out->moved = out->now[i] != i;
     }
     free(s.was);
 }

@@ -17,7 +17,7 @@ struct matches {
     size_t before;    /* how many there were */
     uint8_t *changed; /* of each operation after: 1 if none before is the same, with its numbers */
     size_t fresh;     /* how many these are */
-    bool moved;       /* one that stays has another index */
+    bool moved;       /* one has another index, or is no more */
     bool renumbered;  /* the same shape may have another leaf, or another slot of its material */
 };
 

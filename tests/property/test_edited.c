@@ -22,6 +22,7 @@ enum {
     MANY = 1000,
     TWISTED = 1000,
     FEW = 30,
+    APART = 8,
     MOVES = 3,
     LARGER = 4,
     EDITS_OF_MANY = 24,
@@ -259,6 +260,36 @@ static void an_intersection_becomes_a_difference(void **state)
     resident_destroy(pair.forgotten);
 }
 
+/* As an intersection the two balls are so far from the floor that tapes leave both out; as parts of
+ * the union the first one rises from the floor, and the second is left out at the same place. */
+static void an_intersection_becomes_a_union(void **state)
+{
+    static const char scene[] =
+        "{'format':'fieldcast/1','camera':{'position':[0,4,6],'target':[0,0,0]},"
+        "'lights':[{'id':'sun','type':'directional','direction':[-0.5,-1,-0.3]}],"
+        "'root':{'id':'root','type':'union','children':[{'type':'plane'},%s,"
+        "{'id':'both','type':'intersection','children':["
+        "{'type':'sphere','params':{'radius':0.7}},{'type':'sphere','params':{'radius':0.3},"
+        "'transform':{'translation':[0,%g,0]}}]}]}}";
+    char others[2048] = "", text[4096];
+    struct job_desc desc = desc_of(0);
+
+    (void)state;
+    for (int i = 0; i < FEW; i++) {
+        const size_t length = strlen(others);
+        snprintf(others + length, sizeof others - length,
+                 "%s{'type':'sphere','transform':{'translation':[%d,0,-90]}}", i > 0 ? "," : "", i);
+    }
+    for (int i = 0; i < APART; i++) {
+        snprintf(text, sizeof text, scene, others, 1 + 0.2 * i);
+        const struct pair pair = pair_of(json_text_valid_scene(text), &desc);
+        follow(&pair, &desc,
+               edits_format("[{'op':'set','at':'/nodes/both/type','value':'union'}]"));
+        resident_destroy(pair.kept);
+        resident_destroy(pair.forgotten);
+    }
+}
+
 /* Answers which part of the pixels was drawn. */
 static double go(const struct pair *pair, const struct job_desc *desc, const struct node *node,
                  double right, double up)
@@ -376,3 +407,4 @@ int main(void)
 
     return cmocka_run_group_tests_name("pictures after edits", tests, set_up, tear_down);
 }
+        cmocka_unit_test(an_intersection_becomes_a_union),
