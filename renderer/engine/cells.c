@@ -206,6 +206,15 @@ static bool cell_has(const struct cell *cell, const struct spots *s, int lane)
 
     return apart < 1 << cell->bits;
 }
+/* How a tape takes the second operand alone. What cuts is outside of what it cuts; but where the
+ * first operand is hidden, the second is the result. */
+static uint32_t second_alone(const struct lanes *c, const struct operation *in)
+{
+    const bool one_is_hidden = in->seen && c->params[in->seen] != 0.0f;
+
+    return in->rule == SDF_FIRST && !one_is_hidden ? TAPE_NEGATE : TAPE_MOVE;
+}
+
 
 /* The tape of one child, from behind: only what a result is made of. */
 static void make_tape(struct lanes *c, const struct cell *parent, int number, struct cell *child)
@@ -244,7 +253,7 @@ static void make_tape(struct lanes *c, const struct cell *parent, int number, st
             const bool first = drops[i] >> number & 1;
             distance[in->a] = !first;
             distance[in->b] = true;
-            kept |= !first ? 0 : in->rule == SDF_FIRST ? TAPE_NEGATE : TAPE_MOVE;
+            kept |= first ? second_alone(c, in) : 0;
         } else if (in->op == FIELD_SHAPE || in->op == FIELD_EMPTY) {
             distance[in->a] = false;
             point[in->point] |= in->op == FIELD_SHAPE;

@@ -20,6 +20,8 @@ typedef vf after_function(struct lanes *c, vb m, vf d, const vf *p);
 #include "code.c"
 
 enum { MIXTURE = SPMD_Mixture, OPEN_MAX = LIMIT_NODE_DEPTH };
+/* Children that a vector asks about at a time, a bit for each. */
+enum { ASKED = (1 << (LANES < CUBE_CHILDREN ? LANES : CUBE_CHILDREN)) - 1 };
 
 struct open {
     vb before;
@@ -172,10 +174,10 @@ static void record(struct machine *v, const struct operation *in, size_t at)
                    1e-5f * (vf_abs(a) + vf_abs(b));
     uint32_t first = lanes_bits(a - b > far), second = lanes_bits(b - a > far);
     if (in->seen && v->c->params[in->seen] != 0.0f) {
-        first = v->c->params[in->seen] > 0.0f ? 0xff : 0;
+        first = v->c->params[in->seen] > 0.0f ? ASKED : 0;
         second = ~first;
     }
-    const uint32_t drops = (first & 0xff) << v->child | (second & 0xff) << (8 + v->child);
+    const uint32_t drops = (first & ASKED) << v->child | (second & ASKED) << (8 + v->child);
     v->drops[at] |= (uint16_t)drops;
     v->dropping |= (uint16_t)drops;
 }

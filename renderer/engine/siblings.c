@@ -22,16 +22,17 @@ static void siblings_add(struct siblings *siblings, unsigned children, uint32_t 
 }
 
 /* Both operands, or what is left of them. */
-static void siblings_combine(struct siblings *siblings, struct needs *needs,
-                             const struct operation *in, uint32_t word, uint16_t drops)
+static void siblings_combine(const struct lanes *c, struct siblings *siblings, struct needs *needs,
+                             uint32_t word, uint16_t drops)
 {
+    const struct operation *in = &c->program->operations[word];
     const unsigned need = needs->distance[in->a], both = need & ~(unsigned)(drops >> 8),
                    second = both & drops;
 
     needs->distance[in->a] &= (uint8_t)~second;
     needs->distance[in->b] |= (uint8_t)both;
     siblings_add(siblings, both & ~second, word);
-    siblings_add(siblings, second, word | (in->rule == SDF_FIRST ? TAPE_NEGATE : TAPE_MOVE));
+    siblings_add(siblings, second, word | second_alone(c, in));
 }
 
 /* Whole. `from`: its last word; answers how many are before that. */
@@ -92,7 +93,7 @@ static void make_siblings(const struct lanes *c, const struct cell *parent, unsi
         } else if (in->op == FIELD_LOOP_END) {
             i -= siblings_loop(siblings, &needs, in, from + i);
         } else if (in->op == FIELD_COMBINE && !(word & ~(uint32_t)TAPE_INDEX)) {
-            siblings_combine(siblings, &needs, in, word, drops[i]);
+            siblings_combine(c, siblings, &needs, word, drops[i]);
         } else {
             if (makes_point) {
                 needs.point[in->out] = 0;

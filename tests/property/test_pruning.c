@@ -128,22 +128,37 @@ static void compare(const struct field *field, const struct scene *scene, struct
     }
 }
 
-/* Takes the scene. */
-static void look_at_scene(struct random *random, struct scene *scene, struct operation *sums)
+/* `drawn`: NULL, or the field before nodes were hidden, which keeps them in the program. */
+static struct field *compile(const struct scene *scene, const struct field *drawn)
 {
-    static const float halves[] = {0.7f, 0.15f, 0.03f};
-    static float points[POINTS][3];
+    const struct field_options options = {.drawn = drawn};
     struct error err = {0};
-    struct field *field = field_compile(scene, &err);
+    struct field *field = field_compile_as(scene, &options, &err);
 
     if (!field) {
         fail_msg("%s: %s", err.place, err.message);
     }
+    return field;
+}
+
+/* Takes the field. */
+static void look_at_field(struct random *random, struct field *field, const struct scene *scene,
+                          struct operation *sums)
+{
+    static const float halves[] = {0.7f, 0.15f, 0.03f};
+    static float points[POINTS][3];
+
     for (size_t i = 0; i < sizeof halves / sizeof halves[0]; i++) {
         choose_points(random, halves[i], points);
         compare(field, scene, sums, (const float(*)[3])points, halves[i]);
     }
     field_unref(field);
+}
+
+/* Takes the scene. */
+static void look_at_scene(struct random *random, struct scene *scene, struct operation *sums)
+{
+    look_at_field(random, compile(scene, NULL), scene, sums);
     scene_destroy(scene);
 }
 
@@ -188,6 +203,38 @@ static void every_operation_keeps_its_bits(void **state)
         }
     }
     assert_true(pruning > 10);
+}
+
+static void hide(struct node *node)
+{
+    struct value *value = &node->common.values[record_type_find(node->common.type, "visible")];
+
+    value->number[0] = false;
+    value->set = true;
+}
+
+/* Each of the four operands, and two of them. */
+static void hidden_operands_keep_their_bits(void **state)
+{
+    static struct operation operations[OPERATIONS_MAX];
+    struct random random = {.state = 4};
+    const size_t count = list_operations(operations);
+
+    (void)state;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t n = 0; n < 8; n++) {
+            struct scene *scene = scene_of(&random, &operations[i], NULL);
+            struct field *drawn = compile(scene, NULL);
+
+            hide(scene->root->children[n % 4]);
+            hide(scene->root->children[n / 2]);
+            struct field *field = compile(scene, drawn);
+            assert_true(field->structure_hash == drawn->structure_hash);
+            field_unref(drawn);
+            look_at_field(&random, field, scene, &operations[i]);
+            scene_destroy(scene);
+        }
+    }
 }
 
 static void every_type_keeps_its_bits(void **state)
@@ -250,6 +297,7 @@ static void copies_that_are_left_out_keep_the_bits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_operation_keeps_its_bits),
+                                       cmocka_unit_test(hidden_operands_keep_their_bits),
                                        cmocka_unit_test(every_type_keeps_its_bits),
                                        cmocka_unit_test(copies_that_are_left_out_keep_the_bits)};
 
