@@ -17,7 +17,6 @@
 #define TAPE_STEPS 128         /* the least tape that has room to grow is twice as long */
 #define WASTED_LIMIT (1 << 21) /* words of tapes that are not used, which are let be */
 #define BOUND_NEAR 2           /* a cube is far from surfaces that are so many of its halves away */
-#define BOUND_TAPE 48          /* operations that take longer than more steps by a bound */
 #define VALUE_LEAST 12         /* of so many operations, what a tape gives is noted; */
 #define VALUE_MOST 24          /* of so many in a field of four times as many */
 /* Of the root's side: as many as a float has. Place 0, 0, 0 is a third of the way along each axis

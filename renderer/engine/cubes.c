@@ -133,14 +133,17 @@ static void rename_operations(struct cubes *cubes, const struct matches *matches
     }
 }
 
-/* Squares of pictures stay where nothing in them has another number. */
+/* Squares of pictures stay where nothing in them has another number, and rays step as before. */
 static void keep_seen(struct cubes *cubes, const struct engine_program *before,
                       const struct engine_picture *picture, bool renumbered)
 {
+    const struct engine_program *after = picture->program;
+    const bool same_steps = (before->count > BOUND_TAPE) == (after->count > BOUND_TAPE);
     struct material_set materials = {{0}};
 
-    if (!renumbered && changes_of_materials(before->field, cubes->params, picture->program->field,
-                                            picture->params, &materials)) {
+    if (!renumbered && same_steps &&
+        changes_of_materials(before->field, cubes->params, picture->program->field, picture->params,
+                             &materials)) {
         seen_repaint(&cubes->seen, &materials);
     } else {
         seen_finish(&cubes->seen);

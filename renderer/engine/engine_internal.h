@@ -44,7 +44,11 @@ struct operation {
 
 /* A tape is a list of indices of operations; with a bit set, FIELD_COMBINE takes its second operand
  * alone. */
-enum { TAPE_MOVE = 0x40000000, CUBE_CHILDREN = 8 };
+enum {
+    TAPE_MOVE = 0x40000000,
+    CUBE_CHILDREN = 8,
+    BOUND_TAPE = 48, /* so many operations take longer than more steps by a bound (bounds.c) */
+};
 #define TAPE_NEGATE 0x80000000u
 
 /* A cube of space, and its tape: the operations that matter in it. */

@@ -371,6 +371,23 @@ static void a_shape_more_or_less_draws_little(void **state)
     resident_destroy(pair.forgotten);
 }
 
+/* Rays of so many shapes take other steps: far from surfaces, by bounds. */
+static void a_shape_more_changes_the_steps(void **state)
+{
+    struct random random = {85};
+    const struct job_desc desc = desc_of(0);
+
+    (void)state;
+    for (int count = 22; count < 27; count++) {
+        const struct pair pair = scattered(&random, count, &desc);
+        follow(&pair, &desc,
+               edits_format("[{'op':'insert','into':'/nodes/shapes','before':null,'value':{"
+                            "'type':'sphere','transform':{'scale':0.05}}}]"));
+        resident_destroy(pair.kept);
+        resident_destroy(pair.forgotten);
+    }
+}
+
 static int set_up(void **state)
 {
     const struct renderer_params params = {.device = {.kind = DEVICE_NONE, .index = -1},
@@ -400,11 +417,12 @@ int main(void)
         cmocka_unit_test(edits_of_many_shapes_change_what_they_have_to),
         cmocka_unit_test(a_moved_mirror_moves_what_is_in_it),
         cmocka_unit_test(an_intersection_becomes_a_difference),
+        cmocka_unit_test(an_intersection_becomes_a_union),
         cmocka_unit_test(a_small_move_draws_little),
         cmocka_unit_test(a_move_of_the_bounds_draws_little),
         cmocka_unit_test(a_shape_more_or_less_draws_little),
+        cmocka_unit_test(a_shape_more_changes_the_steps),
     };
 
     return cmocka_run_group_tests_name("pictures after edits", tests, set_up, tear_down);
 }
-        cmocka_unit_test(an_intersection_becomes_a_union),
