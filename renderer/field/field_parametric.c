@@ -85,16 +85,22 @@ static void keep(struct parametric_numbers *surface)
     pthread_mutex_unlock(&lock);
 }
 
-/* All that the numbers depend on. */
+/* All that the numbers depend on. The caller frees it. */
 static char *make_key(const struct node *node, const struct parametric_source *from)
 {
-    const double *l = from->letters;
     char *key = NULL;
+    size_t length;
+    FILE *out = open_memstream(&key, &length);
 
-    if (asprintf(&key, "%s %d %a %a %a %a %a", record_text(&node->params, "surface"), from->levels,
-                 record_number(&node->params, "thickness"), l[0], l[1], l[2], l[3]) < 0) {
+    if (!out) {
         abort();
     }
+    fprintf(out, "%s %d %a", record_text(&node->params, "surface"), from->levels,
+            record_number(&node->params, "thickness"));
+    for (int i = 0; i < EQUATION_LETTERS; i++) {
+        fprintf(out, " %a", from->letters[i]);
+    }
+    fclose(out);
     return key;
 }
 

@@ -209,11 +209,14 @@ static struct result emit_surface(struct builder *b, const struct node *node,
     if (!surface) {
         return result;
     }
-    cut[FIELD_LOOSE] = patches_loose(surface->numbers) * frame->scale;
+    const double loose = patches_loose(surface->numbers);
+    cut[FIELD_LOOSE] = loose * frame->scale;
     builder_add_trips(b, (uint64_t)patches_trips());
     emit_numbers(b, node, frame, slot, number, &sdf_patches, FIELD_PATCHES, cut, surface->numbers,
                  surface->rows);
-    result = (struct result){.solid = true, .shown = true, .box = surface->box};
+    result = (struct result){.solid = true,
+                             .shown = true,
+                             .box = b->measured ? bounds_grow(surface->box, loose) : surface->box};
     parametric_release(surface);
     return result;
 }

@@ -606,7 +606,7 @@ static void write_nothing(int corners, double *out)
 struct bounds patches_box(const double *n)
 {
     const double *root = n + (size_t)(4 * (PATCHES_HEAD + (int)n[11])), half = n[7];
-    struct bounds box;
+    struct bounds box = {.stretch = 1};
 
     for (int i = 0; i < 3; i++) {
         box.low[i] = root[i] - half;

@@ -14,6 +14,7 @@
 
 #include <cmocka.h>
 
+#include "protocol/equation.h"
 #include "renderer/field/field.h"
 #include "renderer/sdf/patches.h"
 #include "tests/support/code_engine.h"
@@ -319,6 +320,45 @@ static void the_numbers_are_the_same_again(void **state)
 }
 
 /* 1/s: the patches about s = 0 are left out, whatever is behind the pole. */
+/* Of each letter, another number is another surface. */
+static void every_letter_moves_the_surface(void **state)
+{
+    static const double p[3] = {0, 1, 0};
+    char surface[256], more[64];
+
+    (void)state;
+    for (int i = 0; i < EQUATION_LETTERS; i++) {
+        snprintf(surface, sizeof surface, "'x':'u','y':'%s','z':'v','u':[-1,1],'v':[-1,1]",
+                 equation_letters[i]);
+        for (int k = 0; k < 2; k++) {
+            snprintf(more, sizeof more, ",'%s':%d", equation_letters[i], k);
+            struct field *field = field_of(surface, more);
+            assert_true(k ? field_distance(field, p) < 0 : field_distance(field, p) > 0.5);
+            field_unref(field);
+        }
+    }
+}
+
+/* A ball that is rounded as far again is seen as far again. */
+static void bounds_hold_what_is_rounded(void **state)
+{
+    struct scene *scene = json_text_valid_scene(
+        "{'format':'fieldcast/1','root':{'type':'round','params':{'radius':1},'children':["
+        "{'id':'it','type':'parametric','params':{'thickness':0.04,'surface':{" SPHERE "}}}]}}");
+    struct field *field = field_compile(scene, NULL);
+
+    (void)state;
+    assert_non_null(field);
+    for (int i = 0; i < 3; i++) {
+        const double end[3] = {i == 0 ? 2 : 0, i == 1 ? 2 : 0, i == 2 ? 2 : 0};
+        assert_true(field_distance(field, end) <= 0);
+        assert_true(field->bounds.low[i] <= -2 && field->bounds.low[i] > -3);
+        assert_true(field->bounds.high[i] >= 2 && field->bounds.high[i] < 3);
+    }
+    field_unref(field);
+    scene_destroy(scene);
+}
+
 static void what_is_not_finite_is_a_hole(void **state)
 {
     static const char text[] = "'x':'s+0*(1/(s-0.5))','y':'0*t','z':'t','s':[0,1],'t':[0,1]";
@@ -414,6 +454,8 @@ int main(void)
         cmocka_unit_test(the_engine_agrees),
         cmocka_unit_test(the_program_depends_on_the_detail),
         cmocka_unit_test(the_numbers_are_the_same_again),
+        cmocka_unit_test(every_letter_moves_the_surface),
+        cmocka_unit_test(bounds_hold_what_is_rounded),
         cmocka_unit_test(what_is_not_finite_is_a_hole),
         cmocka_unit_test(errors_say_where),
         cmocka_unit_test(there_are_limits),
