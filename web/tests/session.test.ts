@@ -398,6 +398,28 @@ test("a cancelled gesture is forgotten, or undone where it was sent", () => {
     expect(takeOutbox(cancelGroup(sent, "g")).messages).toEqual([{ type: "undo", edit: 2 }]);
 });
 
+test("what was refused of a cancelled gesture undoes nothing else", () => {
+    const state = live();
+    const sendGrow = (value: number): void => {
+        const grown = edit(state.session, [radius(value)], { group: "g" }).session;
+        state.session = takeOutbox(grown).session;
+    };
+    const refuse = (edited: number): void => {
+        const problem = { code: "limit", place: "", message: "" };
+        state.say({ type: "rejected", edit: edited, ...problem });
+    };
+    const cancelled = () => takeOutbox(cancelGroup(state.session, "g")).messages;
+    sendGrow(3);
+    refuse(1);
+    expect(cancelled()).toEqual([]);
+    sendGrow(4);
+    expect(cancelled()).toMatchObject([{ type: "undo" }]);
+    state.say({ type: "applied", edit: 2, revision: 5, durable: true, undo: 1, redo: 0 });
+    sendGrow(5);
+    refuse(3);
+    expect(cancelled()).toMatchObject([{ type: "undo" }]);
+});
+
 test("an edit before the document is refused", () => {
     const { problem } = edit(createSession(SCHEMA), [radius(1)]);
     expect(problem?.code).toBe("unavailable");

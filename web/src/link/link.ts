@@ -343,6 +343,7 @@ class SceneLink implements Link {
         switch (event.kind) {
             case "rejected":
                 this.#notices.rejected(event.pending, event.problem);
+                this.#forgetRefused(event.pending);
                 break;
             case "skipped":
                 this.#notices.skipped(event.ops);
@@ -440,13 +441,25 @@ class SceneLink implements Link {
 
     #cancel(group: string): void {
         if (this.#session) {
-            const sent = this.#session.sentGroup === group;
+            this.#forgetStep(group);
             this.#session = sessions.cancelGroup(this.#session, group);
-            this.#stores.document.setState(({ history }) => ({
-                history: sent ? history : forgetStep(history, group),
-            }));
             this.#flush();
             this.#publish();
+        }
+    }
+
+    #forgetRefused(pending: sessions.PendingEdit | null): void {
+        if (pending?.kind === "edit" && pending.group !== "") {
+            this.#forgetStep(pending.group);
+        }
+    }
+
+    /* Unless the server has it, or will have: then an undo takes it away. */
+    #forgetStep(group: string): void {
+        if (this.#session && !sessions.isStep(this.#session, group)) {
+            this.#stores.document.setState(({ history }) => ({
+                history: forgetStep(history, group),
+            }));
         }
     }
 

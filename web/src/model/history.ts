@@ -26,7 +26,7 @@ export function recordStep(history: History, step: Step): History {
     return { undo: [...history.undo, step], redo: [] };
 }
 
-/* An edit group was taken back before anything of it was sent. */
+/* An edit group was taken back before anything of it was sent, or was refused. */
 export function forgetStep(history: History, group: string): History {
     const newest = history.undo.at(-1);
     return newest?.group === group ? { ...history, undo: history.undo.slice(0, -1) } : history;

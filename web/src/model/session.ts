@@ -35,6 +35,8 @@ export interface Session {
     readonly nextEdit: number;
     /* Group of the newest edit that was sent. */
     readonly sentGroup: string;
+    /* Group of the newest edit that the server has applied. */
+    readonly appliedGroup: string;
     /* Steps that the server can undo and redo for us. */
     readonly undo: number;
     readonly redo: number;
@@ -130,6 +132,7 @@ export function createSession(schema: Schema): Session {
         settling: [],
         nextEdit: 1,
         sentGroup: "",
+        appliedGroup: "",
         undo: 0,
         redo: 0,
         online: false,
@@ -225,12 +228,22 @@ export function takeOutbox(session: Session): {
     return { session: { ...session, pending, sentGroup }, messages: unsent.map(outgoing) };
 }
 
+function isOfGroup(entry: PendingEdit, group: string): boolean {
+    return entry.kind === "edit" && entry.group === group;
+}
+
+/* Is the group the server's newest step? Not where all of it that was sent was refused. */
+export function isStep(session: Session, group: string): boolean {
+    const { sentGroup, appliedGroup, pending } = session;
+    const sent = pending.some((entry) => entry.sent && isOfGroup(entry, group));
+    return sentGroup === group && (sent || appliedGroup === group);
+}
+
 /* Takes back the edits of a group: those not sent are forgotten, others the server undoes. */
 export function cancelGroup(session: Session, group: string): Session {
-    const ours = (entry: PendingEdit): boolean => entry.kind === "edit" && entry.group === group;
-    const pending = session.pending.filter((entry) => entry.sent || !ours(entry));
+    const pending = session.pending.filter((entry) => entry.sent || !isOfGroup(entry, group));
     const dropped = rebase({ ...session, pending });
-    return session.sentGroup === group ? askHistory(dropped, "undo") : dropped;
+    return isStep(session, group) ? askHistory(dropped, "undo") : dropped;
 }
 
 /* The connection is gone: nothing is lost, what was sent may have to be sent again. */
@@ -294,6 +307,7 @@ function welcome(session: Session, message: Extract<SessionMessage, { type: "wel
             pending,
             settling: [],
             nextEdit: newest + 1,
+            appliedGroup: lost.length > 0 ? "" : session.appliedGroup,
             undo: message.undo ?? session.undo,
             redo: message.redo ?? session.redo,
             landedEdit: last,
@@ -307,8 +321,14 @@ function dropLanded(session: Session): Session {
     if (session.confirmed === null || session.revision < session.landedRevision) {
         return session;
     }
-    const pending = session.pending.filter((entry) => entry.edit > session.landedEdit);
-    return pending.length === session.pending.length ? session : { ...session, pending };
+    const landed = session.pending.filter((entry) => entry.edit <= session.landedEdit);
+    return landed.reduce(land, session);
+}
+
+/* An edit of ours is part of `confirmed`. */
+function land(session: Session, { edit, kind, group }: PendingEdit): Session {
+    const appliedGroup = kind === "edit" ? group : session.appliedGroup;
+    return { ...without(session, edit), appliedGroup };
 }
 
 function document(
@@ -365,7 +385,7 @@ function applied(session: Session, message: Extract<SessionMessage, { type: "app
         const settling = message.durable ? [] : [{ ...entry, sent: true }];
         next = { ...advanced, settling: [...advanced.settling, ...settling] };
     }
-    const settled = rebase(dropLanded(without(next, message.edit)));
+    const settled = rebase(dropLanded(land(next, entry)));
     return { session: settled, events: [...told, { kind: "done", pending: entry }] };
 }
 
@@ -378,7 +398,7 @@ function changed(session: Session, message: Extract<SessionMessage, { type: "cha
     const entry = session.pending.find((pending) => pending.edit === message.edit);
     const { ops } = message;
     const events: SessionEvent[] = entry ? [{ kind: "done", pending: entry, ops }] : [];
-    let next = entry ? without(session, entry.edit) : session;
+    let next = entry ? land(session, entry) : session;
     if (message.revision > session.revision) {
         const advanced = advance(next, message.revision, message.ops);
         if (!advanced) {
