@@ -113,6 +113,14 @@ test.each([
     expect(parseVector(text)).toEqual(vector);
 });
 
+test.each(["0 90 -45", "0° 90° -45°", "[0 deg, 90 °, -45 DEG]", "(0; pi/2; -pi/4)"])(
+    "%s are angles",
+    (text) => {
+        const angles = parseVector(text, 3, (part) => TURN.parse(part, Number.NaN));
+        expect(angles).toEqual([0, Math.PI / 2, -Math.PI / 4]);
+    },
+);
+
 test("two or four numbers are no vector", () => {
     expect(parseVector("1 2")).toBeNull();
     expect(parseVector("1 2 3 4")).toBeNull();

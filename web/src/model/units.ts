@@ -231,14 +231,20 @@ export function fullInUnit(x: number, unit: Unit | null): string {
     return isAngle(unit) ? `${digits}°` : String(digits);
 }
 
-/* Numbers pasted as "1 2 3", "1, 2, 3" or "[1,2,3]"; null where there are not `count`. */
-export function parseVector(text: string, count = 3): readonly number[] | null {
+/* Numbers pasted as "1 2 3", "1, 2, 3" or "[1,2,3]", each as `parse` reads it; null where there are
+ * not `count`. */
+export function parseVector(
+    text: string,
+    count = 3,
+    parse: (part: string) => number | null = evaluate,
+): readonly number[] | null {
     const inner = text
         .trim()
         .replace(/^[[(]|[\])]$/g, "")
-        .trim();
+        .trim()
+        .replace(/\s+(?=(rad|deg|°)(?![a-z]))/gi, "");
     const parts = /[;\s]/.test(inner) ? inner.split(/[;,]?\s+|;/) : inner.split(",");
-    const numbers = parts.map((part) => evaluate(part)).filter((x) => x !== null);
+    const numbers = parts.map((part) => parse(part)).filter((x) => x !== null);
     return parts.length === count && numbers.length === count ? numbers : null;
 }
 

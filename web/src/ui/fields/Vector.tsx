@@ -9,6 +9,7 @@ import { parseVector } from "../../model/units.ts";
 import { numbersOf } from "../../model/values.ts";
 import { t } from "../texts.ts";
 import { IconButton } from "../widgets/Button.tsx";
+import { displayOf } from "./display.ts";
 import { type Axis, NumberField } from "./Number.tsx";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
@@ -37,8 +38,10 @@ export function VectorField({ param, label, value, fallback, ...rest }: Props) {
                 one ? axes.map(() => x) : numbers.map((old, i) => (i === axis ? x : old)),
                 change && { ...change, axis: one ? null : axis },
             );
+    const display = displayOf(param);
     const paste = (text: string): boolean => {
-        const pasted = parseVector(text, count);
+        /* No part is relative to what is there: nothing of it would be a number. */
+        const pasted = parseVector(text, count, (part) => display.parse(part, Number.NaN));
         if (pasted !== null) {
             rest.onCommit(pasted);
         }
