@@ -164,8 +164,8 @@ class Client {
     /* The worker's knowledge of the revision may be older than the page's by `lag`. */
     connect(lag = 0): void {
         this.online = true;
-        const { confirmed, revision, epoch } = this.session;
-        const known = confirmed ? Math.max(0, revision - lag) : 0;
+        const { confirmed, fits, revision, epoch } = this.session;
+        const known = confirmed && fits ? Math.max(0, revision - lag) : 0;
         this.server.hello(this, known, epoch as number | null);
     }
 
@@ -200,7 +200,6 @@ class Client {
         if (events.some(({ kind }) => kind === "resync")) {
             this.resyncs++;
             this.lose();
-            this.session = { ...this.session, epoch: null };
         }
     }
 
@@ -361,6 +360,10 @@ test("a gap asks for the document", () => {
     const state = live();
     const events = state.say({ type: "changed", revision: 9, author: "you", ops: [radius(7)] });
     expect(events).toEqual([{ kind: "resync" }]);
+    expect(state.session.fits).toBe(false);
+    expect(state.say({ type: "changed", revision: 10, author: "you", ops: [] })).toEqual([]);
+    state.say({ type: "document", revision: 10, document: SCENE });
+    expect(state.session).toMatchObject({ fits: true, revision: 10 });
 });
 
 test("edits that a restarted server no longer has are sent again", () => {

@@ -306,8 +306,8 @@ class SceneLink implements Link {
         for (const event of events) {
             this.#event(event);
         }
-        if (session.epoch !== null && session.confirmed !== null) {
-            const { revision, epoch } = session;
+        const { revision, epoch, confirmed, fits } = session;
+        if (fits && epoch !== null && confirmed !== null) {
             this.#host.send({ kind: "at", revision, epoch });
         }
         if (message.type === "welcome") {

@@ -28,6 +28,8 @@ export interface Session {
     readonly shown: SceneDocument | null;
     readonly revision: number;
     readonly epoch: Epoch | null;
+    /* False from a resync to the next document: then `confirmed` is no state of the server's. */
+    readonly fits: boolean;
     /* Not yet part of `confirmed`, in the order made. */
     readonly pending: readonly PendingEdit[];
     /* Part of `confirmed`, not yet told durable: sent again if the server comes back without. */
@@ -128,6 +130,7 @@ export function createSession(schema: Schema): Session {
         shown: null,
         revision: 0,
         epoch: null,
+        fits: true,
         pending: [],
         settling: [],
         nextEdit: 1,
@@ -339,6 +342,7 @@ function document(
         ...session,
         confirmed: readDocument(message.document),
         revision: message.revision,
+        fits: true,
     };
     return { session: rebase(dropLanded(next)), events: [{ kind: "reset" }] };
 }
@@ -356,7 +360,9 @@ function advance(session: Session, revision: number, ops: readonly Operation[]):
     return result.ok ? { ...session, confirmed: result.document, revision } : null;
 }
 
-const RESYNC: readonly SessionEvent[] = [{ kind: "resync" }];
+function resync(session: Session, events: readonly SessionEvent[] = []): Outcome {
+    return { session: { ...session, fits: false }, events: [...events, { kind: "resync" }] };
+}
 
 function skipped(ops: readonly Operation[] | undefined): readonly SessionEvent[] {
     return ops && ops.length > 0 ? [{ kind: "skipped", ops }] : [];
@@ -380,7 +386,7 @@ function applied(session: Session, message: Extract<SessionMessage, { type: "app
         }
         const advanced = advance(next, message.revision, entry.ops);
         if (!advanced) {
-            return { session: next, events: RESYNC };
+            return resync(next);
         }
         const settling = message.durable ? [] : [{ ...entry, sent: true }];
         next = { ...advanced, settling: [...advanced.settling, ...settling] };
@@ -402,7 +408,7 @@ function changed(session: Session, message: Extract<SessionMessage, { type: "cha
     if (message.revision > session.revision) {
         const advanced = advance(next, message.revision, message.ops);
         if (!advanced) {
-            return { session: next, events: [...events, ...RESYNC] };
+            return resync(next, events);
         }
         next = entry ? countHistory(advanced, entry.kind) : advanced;
         events.push({ kind: "changed", author: message.author, ops: message.ops });
@@ -443,8 +449,12 @@ function rejected(
     };
 }
 
-/* Takes one message of the server. */
+/* Takes one message of the server. What still comes of a connection that is given up is ignored:
+ * the next one tells it. */
 export function receive(session: Session, message: SessionMessage): Outcome {
+    if (!session.fits && (message.type === "applied" || message.type === "changed")) {
+        return { session, events: [] };
+    }
     switch (message.type) {
         case "welcome":
             return welcome(session, message);
