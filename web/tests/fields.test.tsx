@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 // @vitest-environment jsdom
 // What fields of a form make of what is typed, pasted and dragged.
-import { act, type ReactElement } from "react";
+import { act, type ReactElement, useState } from "react";
 import { createRoot } from "react-dom/client";
 import { afterEach, expect, test } from "vitest";
 import { numberParam, type Param } from "../src/model/schema.ts";
+import { fromHex, toHex } from "../src/model/units.ts";
+import type { Editor } from "../src/ui/editor.ts";
+import ColourField from "../src/ui/fields/Colour.tsx";
 import type { FieldProps } from "../src/ui/fields/types.ts";
 import { VectorField } from "../src/ui/fields/Vector.tsx";
+import { EditorContext } from "../src/ui/state.ts";
 
 Object.assign(globalThis, { IS_REACT_ACT_ENVIRONMENT: true });
 
@@ -73,4 +77,58 @@ test("a whole vector of angles is typed and pasted in degrees", () => {
         [0, Math.PI / 2, 0],
         [0, Math.PI / 2, -Math.PI / 4],
     ]);
+});
+
+/* A field that shows what it sent last. */
+function Following({ props }: { props: FieldProps<readonly number[]> }) {
+    const [value, setValue] = useState(props.value);
+    const take = (next: readonly number[]): void => {
+        props.onCommit(next);
+        setValue(next);
+    };
+    return <ColourField {...props} value={value} onInput={take} onCommit={take} />;
+}
+
+const frame = () => new Promise((done) => requestAnimationFrame(done));
+
+/* Drags the number of a field sideways, by these many pixels one after the other. */
+async function drag(label: string, ways: readonly number[]): Promise<void> {
+    const input = field(label);
+    Object.assign(input, { setPointerCapture: () => undefined });
+    let clientX = 0;
+    const point = (kind: string): void => {
+        const event = new MouseEvent(kind, { button: 0, clientX, bubbles: true });
+        Object.assign(event, { pointerId: 1, pointerType: "touch" });
+        act(() => void input.dispatchEvent(event));
+    };
+    point("pointerdown");
+    for (const way of ways) {
+        clientX += way;
+        point("pointermove");
+        await act(frame);
+    }
+    point("pointerup");
+}
+
+test("the strength of a colour goes up and back without another colour", async () => {
+    const grey = fromHex("#808080") ?? [];
+    const { props, values } = sent<readonly number[]>("glow", grey);
+    show(
+        <EditorContext.Provider value={{} as Editor}>
+            <Following props={props} />
+        </EditorContext.Provider>,
+    );
+    await act(async () => document.querySelector<HTMLElement>(".colour-button")?.click());
+    const strength = "glow Strength";
+    await drag(strength, [4, 20, 40, 60, -60, -100]);
+    expect(Math.max(...values.flat())).toBeGreaterThan(1.1 * Math.max(...grey));
+    expect(values.at(-1)).toEqual(grey);
+    type(strength, "3");
+    expect(field(strength).value).toBe("3");
+    expect(values.at(-1)).toEqual(grey.map((x) => 3 * x));
+    expect(document.querySelector(".colour-hex")?.textContent).toBe("#808080");
+    type(strength, "10");
+    expect(values.at(-1)?.every((x) => x > 2)).toBe(true);
+    type(strength, "1");
+    expect(toHex(values.at(-1) as [number, number, number])).toBe("#808080");
 });

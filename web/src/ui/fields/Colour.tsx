@@ -4,7 +4,7 @@
 import { useRef, useState } from "react";
 import { HexColorPicker } from "react-colorful";
 import { numberParam } from "../../model/schema.ts";
-import { vectorOf } from "../../model/transform.ts";
+import { type Vector, vectorOf } from "../../model/transform.ts";
 import { fromHex, printNumber, splitStrength, tidy, toHex } from "../../model/units.ts";
 import { numbersOf } from "../../model/values.ts";
 import { t } from "../texts.ts";
@@ -17,16 +17,28 @@ import "./fields.css";
 
 const MOST_STRENGTH = 1000;
 
+/* What a colour was made of here. The document has the product alone, from which a strength of 3
+ * could not be told where all is below white, nor the way back to 1. */
+interface Made {
+    base: Vector;
+    strength: number;
+}
+
 const strengthParam = numberParam("strength", { default: 1, min: 1, max: MOST_STRENGTH });
 
 export default function ColourField(props: FieldProps<readonly number[]>) {
     const { label, value, mixed, describedBy, onInput, onCommit, onCancel, onRefuse } = props;
-    const { base, strength } = splitStrength(vectorOf(numbersOf(value)));
+    const colour = vectorOf(numbersOf(value));
+    const made = useRef(new Map<string, Made>());
+    const { base, strength } = made.current.get(colour.join()) ?? splitStrength(colour);
     const hex = toHex(base);
     const picking = useRef<readonly number[] | null>(null);
     const [shown, setShown] = useState<string | null>(null);
-    const bright = (colour: readonly number[], by: number): number[] =>
-        colour.map((x) => tidy(x * by));
+    const bright = (base: Vector, strength: number): number[] => {
+        const product = base.map((x) => tidy(x * strength));
+        made.current.set(product.join(), { base, strength });
+        return product;
+    };
     const pick = (next: string): void => {
         const colour = fromHex(next);
         if (colour !== null && next !== hex) {
