@@ -90,3 +90,19 @@ test("a page that has fallen out of step asks for the whole document until it ha
     const { hello: resumed } = await greeting(4);
     expect(resumed).toMatchObject({ revision: 9, epoch: "e" });
 });
+
+test("what a scene that was left is refused for does not close the next one", async () => {
+    const answers: ((response: Response) => void)[] = [];
+    vi.stubGlobal("fetch", () => new Promise((resolve) => void answers.push(resolve)));
+    link.connect("a", SCHEMA, AUTHOR);
+    const { socket } = await greeting(1);
+    socket.lose();
+    link.connect("b", SCHEMA, AUTHOR);
+    const { socket: second } = await greeting(2);
+    second.welcome(4);
+    expect(answers).toHaveLength(1);
+    answers[0]?.(new Response(null, { status: 404 }));
+    await new Promise((resolve) => setTimeout(resolve));
+    expect(stores.link.getState().connection).toBe("live");
+    expect(second.readyState).toBe(FakeSocket.OPEN);
+});

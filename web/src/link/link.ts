@@ -236,7 +236,8 @@ class SceneLink implements Link {
         const headers: HeadersInit = token === null ? {} : { Authorization: `Bearer ${token}` };
         const url = `${base}/v1/scenes/${encodeURIComponent(scene ?? "")}`;
         const response = await fetch(url, { headers }).catch(() => null);
-        if (response && FINAL_STATUS.includes(response.status)) {
+        const left = this.#stores.document.getState().scene !== scene;
+        if (!left && response && FINAL_STATUS.includes(response.status)) {
             const reason = `${response.status} ${response.statusText}`.trim();
             this.#host.send({ kind: "close" });
             this.#stores.link.setState({ connection: "refused", reason, retryAt: null });

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* The page's one set of stores, link and REST, and what commands may ask of the page. */
-import { type Author, takeAuthor, tellLeaving } from "../link/author.ts";
+import { takeAuthor, tellLeaving } from "../link/author.ts";
 import { createLink, type Link } from "../link/link.ts";
 import { createRest, type Rest, takeToken } from "../link/rest.ts";
 import type { App } from "../model/actions.ts";
-import { EMPTY_SCHEMA, outputsShown } from "../model/schema.ts";
 import { createStores, type Stores } from "../model/stores.ts";
-import { COLOR, INITIAL_VIEW, type Subject } from "../model/view.ts";
+import type { Subject } from "../model/view.ts";
 import { EDITOR_FILES, takeFiles } from "./drop/take.ts";
 import { chooseFiles, SCENE_FILES, saveDocument } from "./files.ts";
 import { openFiles, readFiles } from "./import.ts";
+import { Opener } from "./opening.ts";
 
 export interface Editor extends App {
     readonly stores: Stores;
@@ -17,6 +17,8 @@ export interface Editor extends App {
     readonly rest: Rest;
     /* Opens a scene of the server; null closes the one that is open. */
     open(scene: string | null): void;
+    /* Tries to connect at once instead of waiting for the next attempt. */
+    retry(): void;
     /* What the inspector shows. */
     show(subject: Subject): void;
     /* The picture's element, for its size; null where there is none. */
@@ -30,6 +32,7 @@ export function createEditor(): Editor {
     const link = createLink(stores, { base: "", token });
     const author = takeAuthor(window.localStorage, window.sessionStorage, navigator.locks);
     tellLeaving(window, window.sessionStorage);
+    const opener = new Opener({ stores, link, rest }, author);
     let picture: HTMLElement | null = null;
     const editor: Editor = {
         stores,
@@ -46,7 +49,8 @@ export function createEditor(): Editor {
         upload: (folder = false) => upload(editor, folder),
         saveToLibrary: (node) =>
             void import("./library/actions.ts").then(({ saveNode }) => saveNode(editor, node)),
-        open: (scene) => void openScene(editor, scene, author),
+        open: (scene) => void opener.open(scene),
+        retry: () => opener.retry(),
         show: (subject) =>
             stores.view.setState(
                 subject.kind === "nodes" ? { subject } : { subject, selection: [] },
@@ -86,26 +90,4 @@ function upload(editor: Editor, folder: boolean): void {
             await openFiles(editor, await readFiles(files));
         }
     });
-}
-
-async function openScene(
-    editor: Editor,
-    scene: string | null,
-    author: Promise<Author>,
-): Promise<void> {
-    const { stores, link, rest } = editor;
-    link.disconnect();
-    stores.view.setState(({ aov, preferences }) => ({ ...INITIAL_VIEW, aov, preferences }));
-    if (scene === null) {
-        return;
-    }
-    let { schema } = stores.document.getState();
-    if (schema === EMPTY_SCHEMA) {
-        schema = await rest.readSchema();
-    }
-    const { aov } = stores.view.getState();
-    if (!outputsShown(schema).some(({ name }) => name === aov)) {
-        stores.view.setState({ aov: COLOR });
-    }
-    link.connect(scene, schema, await author);
 }

@@ -5,6 +5,7 @@ import { addNotice } from "../../model/stores.ts";
 import type { Editor } from "../editor.ts";
 import { report } from "../files.ts";
 import { type ImportProblem, isDocument, openFiles, readFiles } from "../import.ts";
+import { sceneKept } from "../opening.ts";
 import { t } from "../texts.ts";
 import type { PageFile } from "./drop.ts";
 
@@ -25,8 +26,12 @@ export async function takeFiles(
     const others = files.filter((file) => !pictures.includes(file) && !jsons.includes(file));
     tellStrange(editor, others);
     const [picture, ...more] = pictures;
+    const isKept = sceneKept(editor);
     if (picture) {
         await setEnvironment(editor, picture.file);
+    }
+    if (!isKept()) {
+        return;
     }
     if (more.length > 0) {
         const names = more.map(({ path }) => path).join(", ");
@@ -69,8 +74,12 @@ async function asAsset(file: File): Promise<Blob> {
 
 async function setEnvironment(editor: Editor, file: File): Promise<void> {
     const label = t("drop.environmentEdit");
+    const isKept = sceneKept(editor);
     try {
         const { id } = await editor.rest.uploadAsset(await asAsset(file));
+        if (!isKept()) {
+            return;
+        }
         const set = (name: string, value: string) =>
             ({ op: "set", at: `/environment/${name}`, value }) as const;
         if (editor.link.edit([set("type", "image"), set("image", id)], { label })) {

@@ -4,6 +4,7 @@ import { ImageUp, X } from "lucide-react";
 import { type DragEvent, useEffect, useState } from "react";
 import type { Asset } from "../../link/rest.ts";
 import { chooseFiles } from "../files.ts";
+import { sceneKept } from "../opening.ts";
 import { useEditor } from "../state.ts";
 import { t } from "../texts.ts";
 import { Button, IconButton } from "../widgets/Button.tsx";
@@ -22,7 +23,8 @@ function assetTitle({ id, type, width, height }: Asset): string {
 
 export default function AssetField(props: FieldProps<string>) {
     const { label, value, describedBy, onCommit, onRefuse } = props;
-    const { rest } = useEditor();
+    const editor = useEditor();
+    const { rest } = editor;
     const [busy, setBusy] = useState(false);
     const [over, setOver] = useState(false);
     const [assets, refresh] = useAssets();
@@ -33,8 +35,12 @@ export default function AssetField(props: FieldProps<string>) {
         }
         setBusy(true);
         onRefuse(null);
+        const isKept = sceneKept(editor);
         try {
-            onCommit((await rest.uploadAsset(file)).id);
+            const { id } = await rest.uploadAsset(file);
+            if (isKept()) {
+                onCommit(id);
+            }
             refresh();
         } catch (error) {
             onRefuse(t("asset.failed", { name: file.name, message: (error as Error).message }));

@@ -16,6 +16,7 @@ import type { SavedList } from "../../model/places.ts";
 import { addNotice } from "../../model/stores.ts";
 import type { Editor } from "../editor.ts";
 import { chooseFiles, report, SCENE_FILES } from "../files.ts";
+import { sceneKept } from "../opening.ts";
 import { t } from "../texts.ts";
 
 type Act = () => Promise<unknown>;
@@ -90,8 +91,12 @@ export function saveResource(editor: Editor, list: SavedList, resource: Resource
 /* --- taking --- */
 
 export function take(editor: Editor, { id }: EntryRow, where: Partial<Target> = {}): void {
+    const isKept = sceneKept(editor);
     void attempt(editor, async () => {
         const entry = await editor.rest.library.read(id);
+        if (!isKept()) {
+            return;
+        }
         const { document, schema } = editor.stores.document.getState();
         const { selection, preferences } = editor.stores.view.getState();
         const target = { selection, way: preferences.way, ...where };

@@ -13,7 +13,7 @@ const reasonText = (reason: string): string =>
     reason === "replaced" ? t("link.replaced") : t("link.refused", { reason });
 
 export function Strip() {
-    const { link } = useEditor();
+    const editor = useEditor();
     const connection = useLink((state) => state.connection);
     const reason = useLink((state) => state.reason);
     const waiting = useDocument((state) => state.waiting);
@@ -37,7 +37,7 @@ export function Strip() {
                             {t("bar.scenes")}
                         </Button>
                     ) : (
-                        <Button look="outline" onClick={() => link.retry()}>
+                        <Button look="outline" onClick={() => editor.retry()}>
                             {t("link.retry")}
                         </Button>
                     )}
