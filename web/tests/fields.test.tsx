@@ -3,13 +3,23 @@
 // What fields of a form make of what is typed, pasted and dragged.
 import { act, type ReactElement, useState } from "react";
 import { createRoot } from "react-dom/client";
-import { afterEach, expect, test } from "vitest";
-import { numberParam, type Param } from "../src/model/schema.ts";
+import { afterEach, expect, test, vi } from "vitest";
+import { readDocument } from "../src/model/documentJson.ts";
+import type { JsonObject } from "../src/model/json.ts";
+import type { Operation } from "../src/model/operation.ts";
+import { apply } from "../src/model/operations.ts";
+import { nodeType, numberParam, type Param, readSchema } from "../src/model/schema.ts";
+import { createStores } from "../src/model/stores.ts";
 import { fromHex, toHex } from "../src/model/units.ts";
 import type { Editor } from "../src/ui/editor.ts";
 import ColourField from "../src/ui/fields/Colour.tsx";
 import type { FieldProps } from "../src/ui/fields/types.ts";
+/* Loaded when first shown, which is sooner with them here. */
+import "../src/ui/fields/Points.tsx";
+import "../src/ui/fields/Surface.tsx";
+import "../src/ui/fields/Typeset.tsx";
 import { VectorField } from "../src/ui/fields/Vector.tsx";
+import { Form } from "../src/ui/form.tsx";
 import { EditorContext } from "../src/ui/state.ts";
 
 Object.assign(globalThis, { IS_REACT_ACT_ENVIRONMENT: true });
@@ -49,6 +59,12 @@ function type(label: string, text: string): void {
         input.dispatchEvent(new Event("input", { bubbles: true }));
     });
     act(() => input.blur());
+}
+
+/* The arrow key up. */
+function step(label: string): void {
+    const key = new KeyboardEvent("keydown", { key: "ArrowUp", bubbles: true });
+    act(() => void field(label).dispatchEvent(key));
 }
 
 function pasteInto(label: string, text: string): void {
@@ -131,4 +147,87 @@ test("the strength of a colour goes up and back without another colour", async (
     expect(values.at(-1)?.every((x) => x > 2)).toBe(true);
     type(strength, "1");
     expect(toHex(values.at(-1) as [number, number, number])).toBe("#808080");
+});
+
+/* --- several nodes at once --- */
+
+const row = (type: string, name: string): JsonObject => ({ name, type, default: {}, doc: name });
+const kind = (type: string, children: string, params: JsonObject[]): JsonObject => ({
+    ...{ type, group: "primitive", exactness: "exact", doc: type, words: "" },
+    ...{ children, params },
+});
+const SCHEMA = readSchema({
+    "x-fieldcast": {
+        nodes: [
+            kind("union", "many", []),
+            kind("parametric", "none", [row("surface", "surface")]),
+            kind("polygon", "none", [{ ...row("points", "points"), default: [] }]),
+        ],
+    },
+});
+
+/* The form of two selected nodes of a type, and what the document has for each after edits. */
+async function form(type: string, name: string, values: readonly [JsonObject, JsonObject]) {
+    const stores = createStores(null);
+    const nodes = values.map((params, i) => ({ id: `n${i}`, type, params }));
+    const scene = readDocument({ root: { id: "root", type: "union", children: nodes } });
+    stores.document.setState({ document: scene, schema: SCHEMA, scene: "s" });
+    stores.view.setState({ selection: ["n1", "n0"] });
+    const edit = (ops: readonly Operation[]): void => {
+        const now = stores.document.getState().document;
+        const result = now && apply(now, ops, SCHEMA);
+        if (!result?.ok) {
+            throw new Error(result?.problem.message);
+        }
+        stores.document.setState({ document: result.document });
+    };
+    const end = (): void => undefined;
+    const link = { edit, gesture: () => ({ edit, end, cancel: end }) };
+    const rest = { request: () => new Promise(() => undefined) };
+    const editor = { stores, link, rest } as unknown as Editor;
+    const params = nodeType(SCHEMA, type)?.params ?? [];
+    show(
+        <EditorContext.Provider value={editor}>
+            <Form params={params} base="/nodes/n0/params" owner="n0" />
+        </EditorContext.Provider>,
+    );
+    const loaded = async (): Promise<void> => {
+        await act(frame);
+        expect(document.querySelector(".form-field > *")).not.toBeNull();
+    };
+    await vi.waitFor(loaded, 60_000);
+    return (id: string) => stores.document.getState().document?.nodes.get(id)?.params[name];
+}
+
+const A = { x: "s", y: "t", z: "0", s: [0, 1], t: [0, 2] };
+const B = { x: "s*t", y: "t", z: "s^2", s: [5, 9], t: [0, 2] };
+
+test("typing and stepping in one of two surfaces changes in the other what was touched", async () => {
+    const now = await form("parametric", "surface", [{ surface: A }, { surface: B }]);
+    const [x, y, z] = ["x", "y", "z"].map((part) => field(`surface ${part}`));
+    expect([x, y, z].map((one) => one?.value)).toEqual(["", "t", ""]);
+    expect(x?.placeholder).toBe("mixed");
+    expect(field("s from").placeholder).toBe("mixed");
+    expect(field("t to").value).toBe("2");
+    type("surface y", "t + 1");
+    expect([now("n0"), now("n1")]).toEqual([
+        { ...A, y: "t + 1" },
+        { ...B, y: "t + 1" },
+    ]);
+    step("s to");
+    expect([now("n0"), now("n1")]).toEqual([
+        { ...A, y: "t + 1", s: [0, 1.1] },
+        { ...B, y: "t + 1", s: [5, 9.1] },
+    ]);
+});
+
+test("points of outlines that differ are not changed together", async () => {
+    const triangle = [
+        [0, 0],
+        [1, 0],
+        [0, 1],
+    ];
+    await form("polygon", "points", [{ points: triangle }, { points: [...triangle, [-1, 0]] }]);
+    expect(document.querySelector(".form-field")?.textContent).toContain("mixed");
+    expect(document.querySelector(".points, input")).toBeNull();
 });

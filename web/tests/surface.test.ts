@@ -2,7 +2,14 @@
 // Parametric surfaces: their letters, the numbers that stand for a node's own, and what hangs on them.
 import { expect, test } from "vitest";
 import { matters, numberParam } from "../src/model/schema.ts";
-import { lettersOf, readSurface, type Surface, withNumbers } from "../src/model/surface.ts";
+import {
+    lettersOf,
+    readSurface,
+    type Surface,
+    withNumbers,
+    withRange,
+    withText,
+} from "../src/model/surface.ts";
 
 const surface = (x: string, y: string, z: string, ranges = {}): Surface => ({
     texts: { x, y, z },
@@ -18,6 +25,20 @@ test("the parameters are the two letters of the texts", () => {
     expect(lettersOf(surface("1", "2", "3"))).toEqual(["s", "t"]);
     /* Three: as it was. */
     expect(lettersOf(surface("s*t*u", "2", "3", { s: [0, 1], t: [0, 1] }))).toEqual(["s", "t"]);
+});
+
+test("one text or one range is replaced, and the rest stays", () => {
+    const value = { x: "s", y: "t", z: "s*t", s: [0, 1], t: [2, 3] } as const;
+    expect(withText(value, "y", "t^2")).toEqual({ ...value, y: "t^2" });
+    const { s: _s, t: _t, ...texts } = value;
+    const inU = { ...texts, x: "u", s: undefined, t: [2, 3], u: [-1, 1] };
+    expect(withText({ ...value, z: "t" }, "x", "u")).toEqual({ ...inU, z: "t" });
+    expect(withRange(value, "t", ([low, high]) => [low, high + 1])).toEqual({
+        ...value,
+        t: [2, 4],
+    });
+    expect(withRange(value, "t", () => [3, 3])).toBe(value);
+    expect(withRange(value, "u", () => [0, 5])).toBe(value);
 });
 
 test("a node's own letters become numbers, and no others", () => {

@@ -3,10 +3,11 @@
  * is the same for all; and where selected nodes differ. */
 import type { SceneDocument } from "./document.ts";
 import { paramAt } from "./document.ts";
-import { equalJson, type Json } from "./json.ts";
+import { equalJson, isObject, type Json } from "./json.ts";
 import type { Operation } from "./operation.ts";
 import { parsePlace } from "./places.ts";
 import { components, type Param, type Schema, type Value, valueIn } from "./schema.ts";
+import { LETTERS, PARTS } from "./surface.ts";
 import { tidy, tidyAngle } from "./units.ts";
 import { checkValue, clampNumber, numbersOf } from "./values.ts";
 
@@ -16,6 +17,9 @@ export interface Change {
     /* Null: all components. */
     readonly axis: number | null;
 }
+
+/* How a value of another kind changes, for others than the one that is changed. */
+export type Revision = (own: Value) => Value;
 
 /* Numbers that change one by one; a colour changes as a whole. */
 function isNumbers({ type }: Param): boolean {
@@ -29,6 +33,14 @@ function follow(param: Param, own: Value, { by, axis }: Change): Value {
         axis === null || axis === i ? round(clampNumber(param, by(x))) : x,
     );
     return count === 1 ? (next[0] ?? 0) : next;
+}
+
+/* What another node gets. */
+function valueAfter(param: Param, own: Value, value: Value, change: Change | Revision): Value {
+    if (typeof change === "function") {
+        return change(own);
+    }
+    return isNumbers(param) ? follow(param, own, change) : value;
 }
 
 /* The place of the same value in another node. */
@@ -59,7 +71,7 @@ export function multiEdit(
     selection: readonly string[],
     at: string,
     value: Value | null,
-    change: Change | null = null,
+    change: Change | Revision | null = null,
 ): Operation[] {
     const one: Operation = { op: "set", at, value: value as Json };
     const found = paramAt(schema, start, at);
@@ -72,16 +84,25 @@ export function multiEdit(
             return [];
         }
         const own = valueIn(there.values, there.param);
-        const follows = change !== null && value !== null && isNumbers(there.param);
-        const next = follows ? follow(there.param, own, change) : value;
+        const follows = change !== null && value !== null;
+        const next = follows ? valueAfter(there.param, own, value, change) : value;
         const fits = next === null || checkValue(there.param, next) === null;
         return fits ? [{ op: "set", at: placeIn(at, id), value: next as Json }] : [];
     });
     return [one, ...others];
 }
 
-/* Where the selected nodes differ from the one that a place is of: a digit for each component, 1
- * where it is mixed; "" where all are the same. A text, as what is the same draws nothing anew. */
+/* What of a value may differ by itself. */
+function partsOf(param: Param, value: Value): readonly Json[] {
+    if (param.type === "surface" && isObject(value)) {
+        return [...PARTS, ...LETTERS].map((name) => value[name] ?? null);
+    }
+    return isNumbers(param) ? numbersOf(value, components(param.type)) : [value as Json];
+}
+
+/* Where the selected nodes differ from the one that a place is of: a digit for each component (of a
+ * surface: x, y, z, s, t, u, v), 1 where it is mixed; "" where all are the same. A text, as what is
+ * the same draws nothing anew. */
 export function mixedAt(
     schema: Schema,
     document: SceneDocument,
@@ -93,13 +114,11 @@ export function mixedAt(
         return "";
     }
     const { param } = found;
-    const partsOf = (value: Value): readonly Json[] =>
-        isNumbers(param) ? numbersOf(value, components(param.type)) : [value as Json];
-    const own = partsOf(valueIn(found.values, param));
+    const own = partsOf(param, valueIn(found.values, param));
     const differs = own.map(() => false);
     for (const id of othersAt(at, selection)) {
         const there = sameIn(schema, document, at, id, param);
-        const parts = there ? partsOf(valueIn(there.values, there.param)) : own;
+        const parts = there ? partsOf(param, valueIn(there.values, there.param)) : own;
         parts.forEach((part, i) => {
             differs[i] ||= !equalJson(part, own[i] ?? null);
         });

@@ -27,6 +27,9 @@ export interface SurfaceValue extends JsonObject {
     readonly v?: SurfaceRange;
 }
 
+/* How the surface of another node follows. */
+export type SurfaceRevision = (own: SurfaceValue) => SurfaceValue;
+
 export interface Surface {
     readonly texts: PartTexts;
     readonly ranges: Readonly<Record<string, SurfaceRange>>;
@@ -72,6 +75,32 @@ export function lettersOf({ texts, ranges }: Surface): readonly string[] {
     return used.length > 2 && before.length === 2
         ? before
         : LETTERS.filter((letter) => both.includes(letter));
+}
+
+export const NO_SURFACE: Surface = { texts: { x: "", y: "", z: "" }, ranges: {} };
+
+/* A surface's value with one part replaced; its parameters are those of the texts. */
+export function withText(value: SurfaceValue, part: keyof PartTexts, text: string): SurfaceValue {
+    const surface = readSurface(value) ?? NO_SURFACE;
+    const next = { ...surface, texts: { ...surface.texts, [part]: text } };
+    return surfaceValue(next, lettersOf(next));
+}
+
+/* A surface's value with another range of a parameter; as it was where it has no such parameter, or
+ * where the range would end before its start. */
+export function withRange(
+    value: SurfaceValue,
+    letter: string,
+    change: (own: SurfaceRange) => SurfaceRange,
+): SurfaceValue {
+    const surface = readSurface(value) ?? NO_SURFACE;
+    const own = rangesOf(surface)[letter];
+    const range = own && change(own);
+    if (range === undefined || range[0] >= range[1]) {
+        return value;
+    }
+    const ranges = { ...surface.ranges, [letter]: range };
+    return surfaceValue({ ...surface, ranges }, lettersOf(surface));
 }
 
 /* The ranges of its parameters, also of those that have none yet. */

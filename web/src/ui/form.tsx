@@ -5,7 +5,7 @@ import { Fragment, memo, type ReactNode, useEffect, useId, useRef, useState } fr
 import type { Gesture } from "../link/link.ts";
 import { paramAt, type SceneDocument } from "../model/document.ts";
 import { equalJson } from "../model/json.ts";
-import { type Change, mixedAt, multiEdit } from "../model/multiEdit.ts";
+import { type Change, mixedAt, multiEdit, type Revision } from "../model/multiEdit.ts";
 import type { Operation } from "../model/operation.ts";
 import { problemIn } from "../model/problems.ts";
 import {
@@ -16,7 +16,7 @@ import {
     type Value,
     valueIn,
 } from "../model/schema.ts";
-import type { SurfaceValue } from "../model/surface.ts";
+import type { SurfaceRevision, SurfaceValue } from "../model/surface.ts";
 import { CodeField } from "./fields/Code.tsx";
 import { EnumField } from "./fields/Enum.tsx";
 import { EquationField } from "./fields/Equation.tsx";
@@ -36,7 +36,8 @@ import "./inspector/inspector.css";
 type Make = (param: Param, props: FieldProps<never>, place: string) => ReactNode;
 
 /* The props of a field are typed by its value; the table is where types of values are told. */
-const as = <T,>(props: FieldProps<never>): FieldProps<T> => props as unknown as FieldProps<T>;
+const as = <T, C = Change>(props: FieldProps<never>): FieldProps<T, C> =>
+    props as unknown as FieldProps<T, C>;
 const number: Make = (param, props) => <NumberField param={param} {...as<number>(props)} />;
 const vector: Make = (param, props) => (
     <VectorField param={param} {...as<number | readonly number[]>(props)} />
@@ -71,7 +72,9 @@ const fields: Record<string, Make> = {
     asset: (_param, props) => <AssetField {...as<string>(props)} />,
     code: (_param, props, place) => <CodeField place={place} {...as<string>(props)} />,
     equation: (_param, props, place) => <EquationField place={place} {...as<string>(props)} />,
-    surface: (_param, props, place) => <SurfaceField place={place} {...as<SurfaceValue>(props)} />,
+    surface: (_param, props, place) => (
+        <SurfaceField place={place} {...as<SurfaceValue, SurfaceRevision>(props)} />
+    ),
     points: (param, props) => (
         <PointsField param={param} {...as<readonly (readonly number[])[]>(props)} />
     ),
@@ -221,21 +224,21 @@ function useGesture(place: string, param: Param, owner: string) {
     const start = useRef<SceneDocument | null>(null);
     const label = t("edit.set", { owner, name: paramTitle(param) });
     /* All selected nodes that have such a value take part. */
-    const set = (value: Value | null, change: Change | null = null): Operation[] => {
+    const set = (value: Value | null, change: Change | Revision | null = null): Operation[] => {
         const { schema, document } = stores.document.getState();
         const before = gesture.current === null ? document : start.current;
         const { selection } = stores.view.getState();
         return before ? multiEdit(schema, before, selection, place, value, change) : [];
     };
     return {
-        onInput: (value: Value, change?: Change): void => {
+        onInput: (value: Value, change?: Change | Revision): void => {
             if (gesture.current === null) {
                 start.current = stores.document.getState().document;
                 gesture.current = link.gesture(label);
             }
             gesture.current.edit(set(value, change));
         },
-        onCommit: (value: Value, change?: Change): void => {
+        onCommit: (value: Value, change?: Change | Revision): void => {
             if (gesture.current === null) {
                 link.edit(set(value, change), { label });
             } else {

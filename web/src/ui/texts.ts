@@ -184,6 +184,7 @@ const texts = {
     "reference.edit": "Edit {name}",
     "reference.new": "New {what}",
 
+    "points.mixed": "mixed: select one alone to change its points",
     "points.plane": "{name}: plane",
     "points.which": "{number} of {count}",
     "points.axis": "point {number} {axis}",

@@ -3,6 +3,7 @@
  * equation while they are typed, and proves it. */
 import { useEffect, useState } from "react";
 import type { RestError } from "../../link/rest.ts";
+import type { Change } from "../../model/multiEdit.ts";
 import { numberParam } from "../../model/schema.ts";
 import {
     PARTS,
@@ -12,6 +13,7 @@ import {
     type SurfaceValue,
     surfaceValue,
 } from "../../model/surface.ts";
+import { tidy } from "../../model/units.ts";
 import { lazyPart } from "../lazy.tsx";
 import { paramTitle } from "../names.ts";
 import { useDocument } from "../state.ts";
@@ -157,37 +159,54 @@ function Method({ value, onChange }: MethodProps) {
     );
 }
 
+/* How the same range of another surface follows. */
+export type RangeChange = (own: SurfaceRange) => SurfaceRange;
+
+type SendRange = (range: SurfaceRange, change: RangeChange) => void;
+
 interface RangeProps {
     letter: string;
     range: SurfaceRange;
-    onChange: (range: SurfaceRange) => void;
+    mixed?: boolean;
+    onChange: SendRange;
     /* The end of a gesture; absent: as each of its steps. */
-    onCommit?: (range: SurfaceRange) => void;
+    onCommit?: SendRange;
     onCancel?: () => void;
 }
 
 const BOUND = numberParam("bound", { step: 0.1 });
 const ignore = (): void => undefined;
 
+function withBound([low, high]: SurfaceRange, index: 0 | 1, x: number): SurfaceRange {
+    return index === 0 ? [x, high] : [low, x];
+}
+
 /* [low] ≤ s ≤ [high] */
-export function Range({ letter, range: [low, high], onChange, onCommit, onCancel }: RangeProps) {
-    const bound = (label: string, value: number, next: (value: number) => SurfaceRange) => (
-        <NumberField
-            param={BOUND}
-            label={label}
-            value={value}
-            fallback={value}
-            onInput={(value) => onChange(next(value))}
-            onCommit={(value) => (onCommit ?? onChange)(next(value))}
-            onCancel={onCancel ?? ignore}
-            onRefuse={ignore}
-        />
-    );
+export function Range({ letter, range, mixed, onChange, onCommit, onCancel }: RangeProps) {
+    const bound = (label: string, index: 0 | 1) => {
+        const put = (send: SendRange) => (x: number, change?: Change) =>
+            send(withBound(range, index, x), (own) =>
+                withBound(own, index, change ? tidy(change.by(own[index])) : x),
+            );
+        return (
+            <NumberField
+                param={BOUND}
+                label={label}
+                value={range[index]}
+                fallback={range[index]}
+                mixed={mixed ? "1" : ""}
+                onInput={put(onChange)}
+                onCommit={put(onCommit ?? onChange)}
+                onCancel={onCancel ?? ignore}
+                onRefuse={ignore}
+            />
+        );
+    };
     return (
         <div className="parametric-range">
-            {bound(surfaceText("from", { letter }), low, (value) => [value, high])}
+            {bound(surfaceText("from", { letter }), 0)}
             <span>≤ {letter} ≤</span>
-            {bound(surfaceText("to", { letter }), high, (value) => [low, value])}
+            {bound(surfaceText("to", { letter }), 1)}
         </div>
     );
 }

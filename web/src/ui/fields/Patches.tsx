@@ -8,22 +8,28 @@ import { paramAt } from "../../model/document.ts";
 import type { Json } from "../../model/json.ts";
 import { valueIn, wordsIn } from "../../model/schema.ts";
 import {
+    LETTERS,
     lettersOf,
+    NO_SURFACE,
     PARTS,
     type PartTexts,
     rangesOf,
     readSurface,
     type Surface,
     type SurfaceRange,
+    type SurfaceRevision,
     type SurfaceValue,
     surfaceValue,
     withNumbers,
+    withRange,
+    withText,
 } from "../../model/surface.ts";
 import { lazyPart } from "../lazy.tsx";
 import { isLetter } from "../names.ts";
 import { useDocument, useEditor, useView } from "../state.ts";
+import { t } from "../texts.ts";
 import { Button } from "../widgets/Button.tsx";
-import { Range } from "./Parametric.tsx";
+import { Range, type RangeChange } from "./Parametric.tsx";
 import { CancelSearch, searchText } from "./SearchState.tsx";
 import { coverageSentence, surfaceText } from "./surfaceTexts.ts";
 import { useTypedText } from "./typedText.ts";
@@ -31,28 +37,34 @@ import type { FieldProps } from "./types.ts";
 import { useEquation } from "./useEquation.ts";
 import "./fields.css";
 
-const NOTHING: Surface = { texts: { x: "", y: "", z: "" }, ranges: {} };
-
 const Typeset = lazyPart(() => import("./Typeset.tsx"));
 const QualityBadge = lazyPart(() => import("./Quality.tsx"));
 
-interface Props extends FieldProps<SurfaceValue> {
+/* As they follow one another in `mixed`. */
+const NAMES: readonly string[] = [...PARTS, ...LETTERS];
+
+interface Props extends FieldProps<SurfaceValue, SurfaceRevision> {
     place: string;
     node: string;
 }
 
 export function PatchesField(props: Props) {
-    const { label, value, place, node, mixed, onInput, onCommit, onCancel } = props;
-    const surface = (mixed ? null : readSurface(value)) ?? NOTHING;
+    const { label, value, place, node, mixed = "", onInput, onCommit, onCancel } = props;
+    const surface = readSurface(value) ?? NO_SURFACE;
     const alone = useView(({ selection }) => selection.length === 1);
     const letters = lettersOf(surface);
-    const ranged = surfaceValue(surface, letters) as Readonly<Record<string, SurfaceRange>>;
-    const withText = (part: string, text: string): SurfaceValue => {
-        const next = { ...surface, texts: { ...surface.texts, [part]: text } };
-        return surfaceValue(next, lettersOf(next));
+    const ranges = rangesOf(surface);
+    const isMixed = (name: string): boolean => mixed.charAt(NAMES.indexOf(name)) === "1";
+    const put = (send: typeof onInput, part: keyof PartTexts) => (text: string) => {
+        const revise: SurfaceRevision = (own) => withText(own, part, text);
+        send(revise(value), revise);
     };
-    const withRange = (letter: string, range: SurfaceRange): SurfaceValue =>
-        surfaceValue({ ...surface, ranges: { ...surface.ranges, [letter]: range } }, letters);
+    const putRange =
+        (send: typeof onInput, letter: string) => (range: SurfaceRange, change: RangeChange) =>
+            send(
+                withRange(value, letter, () => range),
+                (own) => withRange(own, letter, change),
+            );
     return (
         // biome-ignore lint/a11y/useSemanticElements: a fieldset brings a look and a legend of its own
         <div className="patches" role="group" aria-label={label}>
@@ -62,9 +74,10 @@ export function PatchesField(props: Props) {
                     label={surfaceText("part", { label, part })}
                     part={part}
                     place={`${place}/${part}`}
-                    text={surface.texts[part]}
-                    onInput={(text) => onInput(withText(part, text))}
-                    onCommit={(text) => onCommit(withText(part, text))}
+                    text={isMixed(part) ? "" : surface.texts[part]}
+                    mixed={isMixed(part)}
+                    onInput={put(onInput, part)}
+                    onCommit={put(onCommit, part)}
                     onCancel={onCancel}
                 />
             ))}
@@ -72,10 +85,13 @@ export function PatchesField(props: Props) {
                 <Range
                     key={letter}
                     letter={letter}
-                    range={ranged[letter] ?? [0, 0]}
-                    onChange={(range) => range[0] < range[1] && onInput(withRange(letter, range))}
-                    onCommit={(range) =>
-                        range[0] < range[1] ? onCommit(withRange(letter, range)) : onCancel()
+                    range={ranges[letter] ?? [0, 0]}
+                    mixed={isMixed(letter)}
+                    onChange={(range, change) =>
+                        range[0] < range[1] && putRange(onInput, letter)(range, change)
+                    }
+                    onCommit={(range, change) =>
+                        range[0] < range[1] ? putRange(onCommit, letter)(range, change) : onCancel()
                     }
                     onCancel={onCancel}
                 />
@@ -95,13 +111,14 @@ interface PartFieldProps {
     part: string;
     place: string;
     text: string;
+    mixed: boolean;
     onInput: (text: string) => void;
     onCommit: (text: string) => void;
     onCancel: () => void;
 }
 
-function PartField({ label, part, place, text, onInput, onCommit, onCancel }: PartFieldProps) {
-    const { shown, listeners } = useTypedText({ text, onInput, onCommit, onCancel });
+function PartField({ label, part, place, mixed, ...typed }: PartFieldProps) {
+    const { shown, listeners } = useTypedText(typed);
     const problem = useDocument(({ problems }) => problems.get(place) ?? null);
     return (
         <div className="parametric-part">
@@ -110,6 +127,7 @@ function PartField({ label, part, place, text, onInput, onCommit, onCancel }: Pa
                 className="text-field"
                 aria-label={label}
                 value={shown}
+                placeholder={mixed ? t("field.mixed") : undefined}
                 spellCheck={false}
                 autoComplete="off"
                 aria-invalid={problem !== null || undefined}

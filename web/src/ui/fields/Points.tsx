@@ -22,7 +22,16 @@ const axisParams = [
     numberParam("y", { unit: "length" }),
 ] as const;
 
+/* The points of one outline mean nothing in another one, so nothing is changed where they differ. */
 export default function PointsField(props: Props) {
+    return props.mixed ? (
+        <p className="points-mixed">{t("points.mixed")}</p>
+    ) : (
+        <SamePoints {...props} />
+    );
+}
+
+function SamePoints(props: Props) {
     const { param, label, value, describedBy, onInput, onCommit, onCancel, onRefuse } = props;
     const points = pointsOf(value);
     const [chosen, setChosen] = useState(0);

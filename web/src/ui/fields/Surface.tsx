@@ -9,7 +9,12 @@ import { paramAt } from "../../model/document.ts";
 import type { JsonObject } from "../../model/json.ts";
 import { multiEdit } from "../../model/multiEdit.ts";
 import { type Value, valueIn } from "../../model/schema.ts";
-import { readSurface, type Surface, type SurfaceValue } from "../../model/surface.ts";
+import {
+    readSurface,
+    type Surface,
+    type SurfaceRevision,
+    type SurfaceValue,
+} from "../../model/surface.ts";
 import { keepPatch } from "../../model/trim.ts";
 import { useDocument, useEditor } from "../state.ts";
 import { Button } from "../widgets/Button.tsx";
@@ -22,7 +27,7 @@ import "./fields.css";
 /* A pause in changes after which the server is asked. */
 const ASK_MS = 300;
 
-interface Props extends FieldProps<SurfaceValue> {
+interface Props extends FieldProps<SurfaceValue, SurfaceRevision> {
     place: string;
 }
 
