@@ -3,7 +3,15 @@
  * number that passes them. */
 import { declaredParams, whyNotRows } from "./declaredParams.ts";
 import { isObject } from "./json.ts";
-import { components, type Param, type ParamType, type Value } from "./schema.ts";
+import { bytesOf } from "./jsonText.ts";
+import {
+    components,
+    limitOf,
+    type Param,
+    type ParamType,
+    type Schema,
+    type Value,
+} from "./schema.ts";
 
 /* Numbers of a value; a single number where several are wanted stands for all (scale). */
 export function numbersOf(value: Value, count = 3): number[] {
@@ -151,6 +159,48 @@ export function checkValue(param: Param, value: Value): string | null {
         return param.direction && value.every((x) => x === 0) ? "a direction is not 0 0 0" : null;
     }
     return null;
+}
+
+/* How many bytes texts may have, by the names of the limits, and which control characters. */
+const TEXTS: Partial<Record<ParamType, { limit: string; allowed: string }>> = {
+    text: { limit: "name_bytes", allowed: "" },
+    code: { limit: "code_bytes", allowed: "\t\n" },
+    equation: { limit: "equation_bytes", allowed: "\t\n" },
+};
+
+/* Why a text cannot stand at `param`, or null where it can. What it says is the server's matter. */
+export function checkText(schema: Schema, { type }: Param, value: Value): string | null {
+    const rule = TEXTS[type];
+    if (rule === undefined || typeof value !== "string") {
+        return null;
+    }
+    const most = limitOf(schema, rule.limit, Number.POSITIVE_INFINITY);
+    const bytes = bytesOf(value);
+    if (bytes > most) {
+        return `${bytes} bytes are above the maximum ${most}`;
+    }
+    const strange = [...value].find((one) => isControl(one) && !rule.allowed.includes(one));
+    return strange === undefined
+        ? null
+        : `control character ${strange.codePointAt(0)} is not allowed`;
+}
+
+function isControl(character: string): boolean {
+    return character < " " || character === "\x7f";
+}
+
+/* The beginning of a text, of as many whole characters as `most` bytes hold. */
+export function cutToBytes(text: string, most: number): string {
+    let bytes = 0;
+    let length = 0;
+    for (const character of text) {
+        bytes += bytesOf(character);
+        if (bytes > most) {
+            return text.slice(0, length);
+        }
+        length += character.length;
+    }
+    return text;
 }
 
 function checkDefaults(params: readonly Param[]): string | null {

@@ -71,7 +71,9 @@ const fields: Record<string, Make> = {
     function: reference,
     asset: (_param, props) => <AssetField {...as<string>(props)} />,
     code: (_param, props, place) => <CodeField place={place} {...as<string>(props)} />,
-    equation: (_param, props, place) => <EquationField place={place} {...as<string>(props)} />,
+    equation: (param, props, place) => (
+        <EquationField param={param} place={place} {...as<string>(props)} />
+    ),
     surface: (_param, props, place) => (
         <SurfaceField place={place} {...as<SurfaceValue, SurfaceRevision>(props)} />
     ),

@@ -7,9 +7,11 @@ import type { Gesture } from "../../link/link.ts";
 import { declaredBy, findResource, nodeLabel, paramAt } from "../../model/document.ts";
 import type { Problem } from "../../model/operation.ts";
 import { nodeOfPlace, resourceOfPlace } from "../../model/places.ts";
-import { isGivenUp, TOO_SLOW } from "../../model/problems.ts";
+import { isGivenUp, isStanding, TOO_SLOW } from "../../model/problems.ts";
 import type { Param } from "../../model/schema.ts";
 import { NEW_NODE_CODE } from "../../model/templates.ts";
+import { checkText } from "../../model/values.ts";
+import type { Editor } from "../editor.ts";
 import { showPlace } from "../insertions.ts";
 import { useDocument, useEditor } from "../state.ts";
 import { t } from "../texts.ts";
@@ -61,8 +63,9 @@ function Panel({ place }: { place: string }) {
     const { stores } = useEditor();
     const text = useText(place);
     const declared = useDeclared(place);
-    const problem = useDocument(({ problems }) => problems.get(place) ?? null);
-    const { element, code, waiting } = useCode(place, text);
+    const found = useDocument(({ problems }) => problems.get(place) ?? null);
+    const { element, code, waiting, refused } = useCode(place, text);
+    const problem = refused ?? found;
     useEffect(() => code?.setNames(declared.map(({ name }) => name)), [code, declared]);
     useEffect(() => {
         const { line, column = 1, message = "" } = problem ?? {};
@@ -98,7 +101,7 @@ function Panel({ place }: { place: string }) {
             </header>
             <Names declared={declared} place={place} />
             <div ref={element} className="code-text" data-loading={code === null || undefined} />
-            {text === "" && code !== null && !waiting && (
+            {text === "" && code !== null && !waiting && refused === null && (
                 <div className="code-start">
                     <Button look="outline" onClick={() => start(code)}>
                         {t("code.template")}
@@ -218,12 +221,39 @@ function Fault({ problem, code }: { problem: Problem; code: CodeEditor | null })
     );
 }
 
-/* The editor, its text kept equal to the document's; `waiting`: something was not sent yet. */
+/* Why the server will not take a text, or null. */
+function whyNot({ stores }: Editor, place: string, text: string): Problem | null {
+    const { schema, document } = stores.document.getState();
+    const found = document && paramAt(schema, document, place);
+    const message = found && checkText(schema, found.param, text);
+    return message ? { code: "limit", place, message } : null;
+}
+
+/* What was sent last and is not settled yet, and why it was not taken where the server said so. */
+function useRefusal(place: string, text: string) {
+    const sent = useRef<string | null>(null);
+    const saved = useDocument((state) => state.saved);
+    const problem = useDocument(({ problems }) => problems.get(place) ?? null);
+    const isGone = sent.current !== null && sent.current !== text;
+    const refusal = isGone && problem !== null && !isStanding(problem) ? problem : null;
+    useEffect(() => {
+        if (saved) {
+            sent.current = null;
+        }
+    }, [saved]);
+    return { sent, refusal };
+}
+
+/* The editor, its text kept equal to the document's; `waiting`: something was not sent yet. A text
+ * that is not taken stays until it is mended, with the reason in `refused`. */
 function useCode(place: string, text: string) {
-    const { link } = useEditor();
+    const editor = useEditor();
+    const { link } = editor;
     const element = useRef<HTMLDivElement>(null);
     const [code, setCode] = useState<CodeEditor | null>(null);
     const [waiting, setWaiting] = useState(false);
+    const [refused, setRefused] = useState<Problem | null>(null);
+    const { sent, refusal } = useRefusal(place, text);
     const latest = useRef(text);
     latest.current = text;
     useEffect(() => {
@@ -238,9 +268,16 @@ function useCode(place: string, text: string) {
             if (gone) {
                 return;
             }
+            const send = (value: string, gesture: Gesture): void => {
+                const problem = whyNot(editor, place, value);
+                setRefused(problem);
+                if (problem === null && gesture.edit([{ op: "set", at: place, value }])) {
+                    sent.current = value;
+                }
+            };
             const sender = sendSlowly(
                 () => mounted?.text() ?? latest.current,
-                (value, gesture) => gesture.edit([{ op: "set", at: place, value }]),
+                send,
                 () => link.gesture(t("edit.code")),
                 setWaiting,
             );
@@ -259,13 +296,16 @@ function useCode(place: string, text: string) {
             stop();
             mounted?.destroy();
         };
-    }, [link, place]);
+    }, [editor, link, place, sent]);
     useEffect(() => {
-        if (code !== null && !waiting && code.text() !== text) {
+        if (refusal !== null) {
+            sent.current = null;
+            setRefused(refusal);
+        } else if (code !== null && !waiting && refused === null && code.text() !== text) {
             code.setText(text);
         }
-    }, [code, waiting, text]);
-    return { element, code, waiting };
+    }, [code, waiting, refused, refusal, sent, text]);
+    return { element, code, waiting, refused };
 }
 
 /* Sends a text after a pause, or when told to; what follows soon is the same undo step. */

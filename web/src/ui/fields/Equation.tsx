@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* An equation. The picture and the equation as it is typeset follow what is typed, as long as it can
  * be read; where it cannot, marks stand under the letters. Escape restores what was there. */
+import type { Param } from "../../model/schema.ts";
+import { checkText } from "../../model/values.ts";
 import { lazyPart } from "../lazy.tsx";
 import { useDocument, useView } from "../state.ts";
 import { useTypedText } from "./typedText.ts";
@@ -11,17 +13,22 @@ const Typeset = lazyPart(() => import("./Typeset.tsx"));
 const QualityBadge = lazyPart(() => import("./Quality.tsx"));
 
 interface Props extends FieldProps<string> {
+    param: Param;
     place: string;
 }
 
 export function EquationField(props: Props) {
-    const { label, value, place, mixed, describedBy, onInput, onCommit, onCancel } = props;
+    const { label, value, param, place, mixed, describedBy } = props;
+    const { onInput, onCommit, onCancel, onRefuse } = props;
+    const schema = useDocument((state) => state.schema);
     const { shown, isTyped, listeners } = useTypedText({
         text: mixed ? "" : value,
         lines: true,
         onInput,
         onCommit,
         onCancel,
+        whyNot: (text) => checkText(schema, param, text),
+        onRefuse,
     });
     const problem = useDocument(({ problems }) => problems.get(place) ?? null);
     const node = /^\/nodes\/([^/]+)\/params\/equation$/.exec(place)?.[1];

@@ -291,7 +291,6 @@ function Details({ row, fieldFor, onInput, onCommit, onCancel, onRefuse }: RowPr
                     label={t("rows.docOf", { name: row.name })}
                     value={row.doc ?? ""}
                     fallback=""
-                    maxLength={200}
                     onInput={ignore}
                     onCommit={(doc) => {
                         const { doc: _old, ...rest } = row;

@@ -2,6 +2,7 @@
 /* A line of text, sent when it is left or Enter is pressed; Escape restores. */
 import { useState } from "react";
 import { t } from "../texts.ts";
+import { useNameCut } from "./nameCut.ts";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
@@ -20,6 +21,7 @@ export function TextField({
     onCommit,
 }: Props) {
     const [draft, setDraft] = useState<string | null>(null);
+    const cut = useNameCut();
     const commit = (): void => {
         if (draft !== null && (draft !== value || mixed)) {
             onCommit(draft);
@@ -37,7 +39,7 @@ export function TextField({
             maxLength={maxLength}
             spellCheck={false}
             autoComplete="off"
-            onChange={(event) => setDraft(event.target.value)}
+            onChange={(event) => setDraft(cut(event.target))}
             onBlur={commit}
             onKeyDown={(event) => {
                 if (event.key === "Enter") {

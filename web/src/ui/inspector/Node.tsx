@@ -178,7 +178,6 @@ function Head({ id, type, label }: { id: string; type: string; label: string }) 
                     value={typeof name === "string" ? name : ""}
                     fallback=""
                     placeholder={label}
-                    maxLength={200}
                     onInput={ignore}
                     onCancel={ignore}
                     onRefuse={ignore}

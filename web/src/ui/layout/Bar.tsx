@@ -23,6 +23,7 @@ import { useState } from "react";
 import { redoTitle, undoTitle } from "../../model/history.ts";
 import { setPreferences } from "../../model/stores.ts";
 import type { Theme } from "../../model/view.ts";
+import { useNameCut } from "../fields/nameCut.ts";
 import { report } from "../files.ts";
 import { addressOf, follow, goTo } from "../route.ts";
 import { useDocument, useEditor, useView } from "../state.ts";
@@ -68,6 +69,7 @@ function Name() {
     const name = useDocument((state) => state.document?.info.name as string | undefined);
     const scene = useDocument((state) => state.scene);
     const [draft, setDraft] = useState<string | null>(null);
+    const cut = useNameCut();
     const commit = (): void => {
         if (draft !== null && draft !== (name ?? "")) {
             const ops = [{ op: "set" as const, at: "/name", value: draft === "" ? null : draft }];
@@ -83,10 +85,9 @@ function Name() {
                     aria-label={t("bar.rename")}
                     // biome-ignore lint/a11y/noAutofocus: the user has just asked to type here
                     autoFocus
-                    maxLength={200}
                     value={draft}
                     onFocus={(event) => event.currentTarget.select()}
-                    onChange={(event) => setDraft(event.target.value)}
+                    onChange={(event) => setDraft(cut(event.target))}
                     onBlur={commit}
                     onKeyDown={(event) => {
                         if (event.key === "Enter") {

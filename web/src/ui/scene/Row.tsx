@@ -13,6 +13,7 @@ import {
 } from "../../model/document.ts";
 import { rename, setVisible } from "../../model/edits.ts";
 import { nodeType } from "../../model/schema.ts";
+import { useNameCut } from "../fields/nameCut.ts";
 import { takesMaterial } from "../materials/drag.ts";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
@@ -232,6 +233,7 @@ function EyeButton({ node, name }: { node: SceneNode; name: string }) {
 
 function Rename({ node }: { node: SceneNode }) {
     const { stores, link } = useEditor();
+    const cut = useNameCut();
     const name = nodeLabel(node);
     const finish = (text: string | null, element: HTMLElement): void => {
         const row = element.closest<HTMLElement>("[role='treeitem']");
@@ -253,7 +255,7 @@ function Rename({ node }: { node: SceneNode }) {
             // biome-ignore lint/a11y/noAutofocus: the user has just asked to type here
             autoFocus
             defaultValue={name}
-            maxLength={200}
+            onInput={(event) => cut(event.currentTarget)}
             onFocus={(event) => event.currentTarget.select()}
             onClick={(event) => event.stopPropagation()}
             onDoubleClick={(event) => event.stopPropagation()}

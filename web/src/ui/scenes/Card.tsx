@@ -3,6 +3,7 @@
 import { Copy, Download, Ellipsis, Pencil, Trash2 } from "lucide-react";
 import { useEffect, useRef, useState } from "react";
 import type { ExampleEntry, SceneEntry } from "../../link/rest.ts";
+import { useNameCut } from "../fields/nameCut.ts";
 import { downloadJson, report } from "../files.ts";
 import { addressOf, follow } from "../route.ts";
 import { useEditor } from "../state.ts";
@@ -136,6 +137,7 @@ interface RenameProps {
 }
 
 export function RenameField({ name, onDone, onCancel }: RenameProps) {
+    const cut = useNameCut();
     return (
         <input
             className="text-field"
@@ -143,7 +145,7 @@ export function RenameField({ name, onDone, onCancel }: RenameProps) {
             // biome-ignore lint/a11y/noAutofocus: the user has just asked to type here
             autoFocus
             defaultValue={name}
-            maxLength={200}
+            onInput={(event) => cut(event.currentTarget)}
             onFocus={(event) => event.currentTarget.select()}
             onBlur={(event) => onDone(event.currentTarget.value.trim())}
             onKeyDown={(event) => {

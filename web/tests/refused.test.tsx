@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: MIT */
+// @vitest-environment jsdom
+/* Texts that the server would not take, or did not: they stay where they were typed. */
+import { EditorView } from "@codemirror/view";
+import { act, type ReactNode } from "react";
+import { createRoot, type Root } from "react-dom/client";
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { readDocument } from "../src/model/documentJson.ts";
+import type { Operation } from "../src/model/operation.ts";
+import { apply } from "../src/model/operations.ts";
+import { findParam, type Schema } from "../src/model/schema.ts";
+import { createStores } from "../src/model/stores.ts";
+import { checkText, cutToBytes } from "../src/model/values.ts";
+import CodePanel from "../src/ui/code/CodePanel.tsx";
+import type { Editor } from "../src/ui/editor.ts";
+import { cutInput } from "../src/ui/fields/nameCut.ts";
+import { useTypedText } from "../src/ui/fields/typedText.ts";
+import { EditorContext } from "../src/ui/state.ts";
+import { SCHEMA } from "./fixture.ts";
+
+const CODE = "/primitives/rod/code";
+const limit = (name: string, value: number) => ({ name, value, unit: "bytes", doc: "" });
+const schema: Schema = {
+    ...SCHEMA,
+    limits: [limit("code_bytes", 20), limit("name_bytes", 8)],
+};
+const scene = readDocument({
+    primitives: { rod: { code: "old" } },
+    root: { id: "root", type: "union" },
+});
+
+let root: Root;
+let element: HTMLElement;
+
+beforeEach(() => {
+    vi.stubGlobal("IS_REACT_ACT_ENVIRONMENT", true);
+    element = document.createElement("div");
+    document.body.append(element);
+    root = createRoot(element);
+});
+afterEach(async () => {
+    await act(async () => root.unmount());
+    element.remove();
+    vi.unstubAllGlobals();
+});
+
+const show = (part: ReactNode) => act(async () => root.render(part));
+
+test("the bytes of a text count, and its control characters", () => {
+    const name = findParam(schema.node, "name");
+    const check = (text: string) => name && checkText(schema, name, text);
+    expect(check("12345678")).toBeNull();
+    expect(check("äöüß5")).toBe("9 bytes are above the maximum 8");
+    expect(check("a\vb")).toBe("control character 11 is not allowed");
+    expect(cutToBytes("äöüß5", 8)).toBe("äöüß");
+    expect(cutToBytes("a🙂b", 4)).toBe("a");
+});
+
+test("what is pasted into a name is cut, what stands behind it stays", () => {
+    const input = document.createElement("input");
+    input.value = "abcüüü-z";
+    input.setSelectionRange(6, 6);
+    expect(cutInput(input, 8)).toBe("abcü-z");
+    expect(input.selectionStart).toBe(4);
+});
+
+/* --- code --- */
+
+/* An editor whose link shows edits at once, and a server that takes them or not. */
+function setUp() {
+    const stores = createStores(null);
+    stores.document.setState({ schema, document: scene });
+    const edit = vi.fn((ops: readonly Operation[]) => {
+        const result = apply(scene, ops, schema);
+        stores.document.setState({ document: result.ok ? result.document : scene, saved: false });
+        return result.ok;
+    });
+    const gesture = () => ({ edit, end: () => undefined, cancel: () => undefined });
+    const editor = { stores, link: { gesture } } as unknown as Editor;
+    return { editor, stores, edit };
+}
+
+async function openCode(editor: Editor) {
+    await show(
+        <EditorContext value={editor}>
+            <CodePanel place={CODE} />
+        </EditorContext>,
+    );
+    await act(async () => void (await import("../src/ui/code/mount.ts")));
+    const content = element.querySelector<HTMLElement>(".cm-content") as HTMLElement;
+    const view = EditorView.findFromDOM(content) as EditorView;
+    const write = (insert: string): void =>
+        view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert } });
+    const send = () => act(async () => void view.contentDOM.dispatchEvent(new Event("blur")));
+    return {
+        text: () => view.state.doc.toString(),
+        write: async (insert: string): Promise<void> => {
+            await act(async () => write(insert));
+            await send();
+        },
+    };
+}
+
+const fault = () => element.querySelector(".code-fault")?.textContent ?? null;
+
+test("code that is too long is not sent and stays, with the reason", async () => {
+    const { editor, edit } = setUp();
+    const { text, write } = await openCode(editor);
+    const long = "/".repeat(21);
+    await write(long);
+    expect(edit).not.toHaveBeenCalled();
+    expect(text()).toBe(long);
+    expect(fault()).toBe("21 bytes are above the maximum 20");
+    await write("short");
+    expect(edit).toHaveBeenLastCalledWith([{ op: "set", at: CODE, value: "short" }]);
+    expect([text(), fault()]).toEqual(["short", null]);
+});
+
+test("code that the server refused stays, with the reason", async () => {
+    const { editor, stores } = setUp();
+    const { text, write } = await openCode(editor);
+    await write("mine");
+    const problem = { code: "limit", place: CODE, message: "no room" };
+    await act(async () => {
+        stores.document.setState({ problems: new Map([[CODE, problem]]) });
+        stores.document.setState({ document: scene, saved: true });
+    });
+    expect([text(), fault()]).toEqual(["mine", "no room"]);
+});
+
+test("code follows what others write and what is undone", async () => {
+    const { editor, stores } = setUp();
+    const { text, write } = await openCode(editor);
+    await write("mine");
+    await act(async () => stores.document.setState({ saved: true }));
+    await act(async () => stores.document.setState({ document: scene }));
+    expect(text()).toBe("old");
+});
+
+/* --- a field --- */
+
+interface FieldProps {
+    onCommit: (text: string) => void;
+    onRefuse: (reason: string | null) => void;
+}
+
+function Field({ onCommit, onRefuse }: FieldProps) {
+    const { shown, listeners } = useTypedText({
+        text: "old",
+        onInput: () => undefined,
+        onCommit,
+        onCancel: () => undefined,
+        whyNot: (text) => (text.length > 3 ? "long" : null),
+        onRefuse,
+    });
+    return <input value={shown} {...listeners} />;
+}
+
+test("a text that a field cannot take stays until Escape", async () => {
+    const onCommit = vi.fn();
+    const onRefuse = vi.fn();
+    await show(<Field onCommit={onCommit} onRefuse={onRefuse} />);
+    const input = element.querySelector("input") as HTMLInputElement;
+    const setValue = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value")?.set;
+    const key = (name: string) =>
+        act(async () => {
+            input.dispatchEvent(new KeyboardEvent("keydown", { key: name, bubbles: true }));
+        });
+    await act(async () => {
+        setValue?.call(input, "long");
+        input.dispatchEvent(new Event("input", { bubbles: true }));
+    });
+    await key("Enter");
+    expect(onCommit).not.toHaveBeenCalled();
+    expect(onRefuse).toHaveBeenLastCalledWith("long");
+    expect(input.value).toBe("long");
+    await key("Escape");
+    expect(onRefuse).toHaveBeenLastCalledWith(null);
+    expect(input.value).toBe("old");
+});
