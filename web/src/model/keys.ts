@@ -31,9 +31,9 @@ function baseOf(press: KeyPress): string {
     if (press.code.startsWith("Numpad") && /^Numpad[0-9]$/.test(press.code)) {
         return `Num${press.code.slice(6)}`;
     }
-    const letter = /^Key([A-Z])$/.exec(press.code)?.[1];
-    if (letter && press.altKey) {
-        return letter;
+    const placed = /^(?:Key|Digit)([A-Z0-9])$/.exec(press.code)?.[1];
+    if (placed && press.altKey) {
+        return placed;
     }
     const name = NAMED[press.key] ?? press.key;
     return name.length === 1 ? name.toUpperCase() : name;
