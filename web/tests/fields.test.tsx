@@ -130,7 +130,7 @@ test("the strength of a colour goes up and back without another colour", async (
     const grey = fromHex("#808080") ?? [];
     const { props, values } = sent<readonly number[]>("glow", grey);
     show(
-        <EditorContext.Provider value={{} as Editor}>
+        <EditorContext.Provider value={{ stores: createStores(null) } as Editor}>
             <Following props={props} />
         </EditorContext.Provider>,
     );
