@@ -43,6 +43,7 @@ void session_leave_room(struct session *session)
     if (!room) {
         return;
     }
+    picker_forget(session); /* its questions are about the room */
     struct session **link = &room->sessions;
     while (*link != session) {
         link = &(*link)->next;
@@ -60,7 +61,6 @@ void session_leave_room(struct session *session)
 
 static void session_destroy(struct session *session)
 {
-    picker_forget(session);
     thumbnails_stop(session);
     stream_finish(session);
     free(session->stream);

@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: MIT */
+/* Live sessions without connections: what happens to a scene, its authors and its questions while
+ * others read the document, leave, or come again. The worker is this program, which says nothing
+ * then. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "protocol/json.h"
+#include "protocol/memory.h"
+#include "renderer/worker/worker.h"
+#include "server/live/hub_life.h"
+#include "server/live/hub_rooms.h"
+#include "server/live/room.h"
+#include "server/live/session.h"
+#include "server/live/session_life.h"
+#include "server/live/session_messages.h"
+#include "tests/support/json_text.h"
+
+static char directory[] = "/tmp/fieldcast-sessions-XXXXXX";
+static pthread_cond_t woken = PTHREAD_COND_INITIALIZER; /* with the hub's lock */
+
+/* --- a server without connections --- */
+
+static struct hub *open_hub(void)
+{
+    static const char *const worker[] = {"test_sessions", "worker", NULL};
+    struct error err = {0};
+    struct hub *hub = hub_create(&(struct hub_params){.data_dir = directory,
+                                                      .worker_argv = worker,
+                                                      .worker_silence_ms = INT32_MAX,
+                                                      .worker_busy_ms = INT32_MAX},
+                                 &err);
+
+    assert_non_null(hub);
+    return hub;
+}
+
+static void close_hub(struct hub *hub)
+{
+    hub_drain(hub);
+    hub_destroy(hub);
+}
+
+/* The document of a new scene is `text`, with ' instead of ". */
+static struct room *make_scene(struct hub *hub, const char *id, const char *text)
+{
+    struct error err = {0};
+    struct scene *scene = json_text_scene(text, &err);
+
+    assert_non_null(scene);
+    struct room *room =
+        hub_lock_new_room(hub, id, scene, scene_print(scene, false), NULL, NULL, &err);
+    assert_non_null(room);
+    hub_unlock(hub);
+    return room;
+}
+
+static void delete_scene(struct hub *hub, const char *id)
+{
+    struct room *room = hub_lock_room_to_change(hub, id, NULL);
+
+    assert_non_null(room);
+    hub_delete_room(hub, room, NULL, NULL);
+    hub_unlock(hub);
+}
+
+/* --- a client --- */
+
+static void on_wake(void *connection)
+{
+    (void)connection;
+    pthread_cond_broadcast(&woken);
+}
+
+static void begin_to_say(struct session *session, const char *scene, const char *text)
+{
+    if (!session_receive(session, scene, text, strlen(text))) {
+        session_receive_apart(session, scene, memory_text(text), strlen(text));
+    }
+}
+
+static void wait_for_work(struct session *session)
+{
+    hub_lock(session->hub);
+    while (session->working) {
+        hub_wait(session->hub, &woken);
+    }
+    hub_unlock(session->hub);
+}
+
+/* A message with ' instead of ". */
+static void say(struct session *session, const char *scene, const char *text)
+{
+    struct error err = {0};
+    cJSON *message = json_text_parse(text, &err);
+    char *printed = json_print(message, false);
+
+    begin_to_say(session, scene, printed);
+    wait_for_work(session);
+    free(printed);
+    cJSON_Delete(message);
+}
+
+static struct session *open_session(struct hub *hub)
+{
+    hub_lock(hub);
+    struct session *session = session_create(hub, on_wake, NULL);
+    hub_unlock(hub);
+    return session;
+}
+
+static struct session *enter(struct hub *hub, const char *scene, const char *client)
+{
+    struct session *session = open_session(hub);
+    char hello[200];
+
+    snprintf(hello, sizeof hello, "{'type':'hello','client':'%s'}", client);
+    say(session, scene, hello);
+    return session;
+}
+
+static void leave(struct session *session)
+{
+    struct hub *hub = session->hub;
+
+    hub_lock(hub);
+    session_leave(session);
+    hub_unlock(hub);
+}
+
+/* The next text that waits for the client. NULL: there is none. Under the lock. */
+static cJSON *next_message(struct session *session)
+{
+    static uint8_t part[SEND_QUEUE_PART_BYTES + FRAME_HEADER_BYTES];
+    struct send_queue_piece piece = {0};
+    char *text = NULL;
+    size_t length = 0;
+    int code;
+    FILE *out = open_memstream(&text, &length);
+
+    while (!piece.last && session_next(session, part, &piece, &code)) {
+        fwrite(part, 1, piece.length, out);
+    }
+    fclose(out);
+    cJSON *message = piece.last ? cJSON_ParseWithLength(text, length) : NULL;
+    assert_true(message || !piece.last);
+    free(text);
+    return message;
+}
+
+/* Reads what is said until a message of this type comes; the caller deletes it. */
+static cJSON *await(struct session *session, const char *type)
+{
+    cJSON *message;
+
+    hub_lock(session->hub);
+    while (!(message = next_message(session)) ||
+           strcmp(json_member_text(message, "type", ""), type) != 0) {
+        if (!message) {
+            hub_wait(session->hub, &woken);
+        }
+        cJSON_Delete(message);
+    }
+    hub_unlock(session->hub);
+    return message;
+}
+
+/* --- what waits for a session --- */
+
+static const char *const ball = "{'format':'fieldcast/1','root':{'id':'ball','type':'sphere'}}";
+
+/* Until it has more than may wait. */
+static void overflow(struct session *session)
+{
+    struct shared_buffer *text = shared_buffer_take(memory_alloc(1, 1000000), 1000000);
+
+    hub_lock(session->hub);
+    while (!session->close_code) {
+        session_send(session, text);
+    }
+    assert_true(session->close_now);
+    hub_unlock(session->hub);
+    shared_buffer_unref(text);
+}
+
+/* The questions of a session that reads too slowly rest while its scene is deleted. */
+static void questions_go_with_the_room(void **state)
+{
+    struct hub *hub = open_hub();
+
+    (void)state;
+    make_scene(hub, "deleted", ball);
+    make_scene(hub, "stays", ball);
+    struct session *slow = enter(hub, "deleted", "the-slow-one");
+    struct session *other = enter(hub, "stays", "the-other-one");
+    hub_lock(hub);
+    slow->picks_rest_us = INT64_MAX;
+    hub_unlock(hub);
+    say(slow, "deleted", "{'type':'bounds','bounds':1,'nodes':['ball']}");
+    overflow(slow);
+    delete_scene(hub, "deleted");
+    hub_lock(hub);
+    assert_null(slow->room);
+    slow->picks_rest_us = 0;
+    hub_unlock(hub);
+    say(other, "stays", "{'type':'bounds','bounds':2,'nodes':['ball']}");
+    cJSON_Delete(await(other, "bounded"));
+    leave(slow);
+    leave(other);
+    close_hub(hub);
+}
+
+/* --- the program --- */
+
+static int make_directory(void **state)
+{
+    (void)state;
+    return mkdtemp(directory) ? 0 : -1;
+}
+
+static int remove_directory(void **state)
+{
+    char command[100];
+
+    (void)state;
+    snprintf(command, sizeof command, "rm -r %s", directory);
+    return system(command);
+}
+
+/* Says nothing until the front ends. */
+static int be_a_worker(void)
+{
+    char byte[256];
+
+    while (read(WORKER_FD, byte, sizeof byte) > 0) {
+    }
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(questions_go_with_the_room),
+    };
+
+    if (argc > 1 && strcmp(argv[1], "worker") == 0) {
+        return be_a_worker();
+    }
+    return cmocka_run_group_tests_name("sessions", tests, make_directory, remove_directory);
+}
