@@ -83,7 +83,7 @@ void authors_cut(struct authors *authors, uint64_t revision,
     while (author && author->revision <= revision) {
         struct author *next = author->newer;
 
-        if (!author->session) {
+        if (!author->session && author->applying == 0) {
             each(data, author);
             authors_remove(authors, author);
         }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The authors of a scene: those who are connected, and those who have an edit in its log. A search
- * tree finds them by id. A list in the order of their newest edits tells which authors leave when
- * the log is cut. The size of the log therefore bounds their number. Pure. */
+/* The authors of a scene: those who are connected, and those who have an edit in its log or on the
+ * way to it. A search tree finds them by id. A list in the order of their newest edits tells which
+ * authors leave when the log is cut. The size of the log therefore bounds their number. Pure. */
 #ifndef SERVER_AUTHORS_H
 #define SERVER_AUTHORS_H
 
@@ -24,6 +24,7 @@ struct author {
     int64_t edit;                          /* number of its newest edit in the log; 0: none */
     uint64_t revision;                     /* which that edit made */
     struct session *session;               /* its connection; NULL: not connected */
+    int applying;                          /* edits that are being applied; it stays meanwhile */
     struct author *older, *newer;
 };
 
@@ -42,8 +43,8 @@ void authors_remove(struct authors *authors, struct author *author);
 /* Records that an edit of the author is in the log. Revisions rise from call to call. */
 void authors_edited(struct authors *authors, struct author *author, int64_t edit,
                     uint64_t revision);
-/* Call it when the log was cut up to `revision`. Removes each author who is not connected and has
- * no edit left in the log. Calls `each` before it removes one. */
+/* Call it when the log was cut up to `revision`. Removes each author who is not connected, has no
+ * edit left in the log, and none that is being applied. Calls `each` before it removes one. */
 void authors_cut(struct authors *authors, uint64_t revision,
                  void (*each)(void *data, const struct author *author), void *data);
 

@@ -56,12 +56,28 @@ struct author *room_authors_admit(struct room *room, const char *client, const c
     return author;
 }
 
+static void remove_unneeded(struct room *room, struct author *author)
+{
+    if (!author->session && author->edit == 0 && author->applying == 0) {
+        authors_remove(&room->authors, author);
+    }
+}
+
 void room_authors_left(struct room *room, struct author *author)
 {
     author->session = NULL;
-    if (author->edit == 0) {
-        authors_remove(&room->authors, author);
-    }
+    remove_unneeded(room, author);
+}
+
+void room_authors_hold(struct author *author)
+{
+    author->applying++;
+}
+
+void room_authors_release(struct room *room, struct author *author)
+{
+    author->applying--;
+    remove_unneeded(room, author);
 }
 
 static void forget(void *data, const struct author *author)

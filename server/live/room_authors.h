@@ -15,6 +15,10 @@ struct author *room_authors_admit(struct room *room, const char *client, const c
                                   char out_key[MESSAGE_KEY_CHARACTERS + 1], struct error *err);
 /* The author's connection ends, or passes to another session. */
 void room_authors_left(struct room *room, struct author *author);
+/* Between room_authors_hold and room_authors_release the author stays, also while the lock is free:
+ * an edit of theirs is being applied. */
+void room_authors_hold(struct author *author);
+void room_authors_release(struct room *room, struct author *author);
 /* Call it when the log has been cut, or when a queued write will cut it. */
 void room_authors_cut(struct room *room);
 /* ROOM_APPLIED: the number is new. ROOM_KNOWN: it is in the log, at `*out_revision`. ROOM_REFUSED:

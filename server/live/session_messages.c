@@ -13,6 +13,7 @@
 #include "protocol/messages.h"
 #include "retry.h"
 #include "room.h"
+#include "room_authors.h"
 #include "server/clock.h"
 #include "server_message.h"
 #include "session_life.h"
@@ -69,9 +70,12 @@ static void edit(struct session *session, const struct message *message)
         .label = json_member_text(message->json, "label", NULL),
         .session = session,
     };
+    struct room *room = session->room;
     cJSON *skipped = NULL;
-    const enum room_outcome outcome = apply(session, message, &change, &revision, &skipped, &err);
 
+    room_authors_hold(change.by);
+    const enum room_outcome outcome = apply(session, message, &change, &revision, &skipped, &err);
+    room_authors_release(room, change.by);
     if (outcome == ROOM_REFUSED) {
         session_say(session, message_rejected(change.edit, &err, skipped));
     } else {

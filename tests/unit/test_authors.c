@@ -61,7 +61,8 @@ static void count_forgotten(void *data, const struct author *author)
     ++*(int *)data;
 }
 
-/* Everybody edits once, the log keeps 100 edits; one stays connected, one only looks on. */
+/* Everybody edits once, the log keeps 100 edits; one stays connected, an edit of one is being
+ * applied, one only looks on. */
 static void as_many_as_the_log_has(void **state)
 {
     struct session *const connected = (struct session *)directory; /* is not looked at */
@@ -74,17 +75,19 @@ static void as_many_as_the_log_has(void **state)
         struct author *author = authors_add(&authors, nth(i));
 
         author->session = i == 5 ? connected : NULL;
+        author->applying = i == 6;
         authors_edited(&authors, author, 1, (uint64_t)i + 1);
         if (i >= 100) {
             authors_cut(&authors, (uint64_t)i - 99, count_forgotten, &forgotten);
         }
-        assert_true(authors.count <= 100 + 2);
+        assert_true(authors.count <= 100 + 3);
     }
-    assert_int_equal(authors.count, 100 + 2);
-    assert_int_equal(forgotten, MANY - 101);
+    assert_int_equal(authors.count, 100 + 3);
+    assert_int_equal(forgotten, MANY - 102);
     assert_non_null(authors_find(&authors, "looks-on"));
     assert_non_null(authors_find(&authors, nth(5)));
-    assert_null(authors_find(&authors, nth(6)));
+    assert_non_null(authors_find(&authors, nth(6)));
+    assert_null(authors_find(&authors, nth(7)));
     authors_finish(&authors);
 }
 

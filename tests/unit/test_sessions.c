@@ -218,6 +218,110 @@ static void questions_go_with_the_room(void **state)
     close_hub(hub);
 }
 
+/* --- authors --- */
+
+/* So many changes that they are applied without the lock. */
+static char *heavy_edit(const char *last_place)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+
+    fputs("{\"type\":\"edit\",\"edit\":1,\"ops\":[", out);
+    for (int i = 1; i < LIMIT_OPERATIONS; i++) {
+        fprintf(out, "{\"op\":\"set\",\"at\":\"/nodes/ball/params/radius\",\"value\":%d},", i);
+    }
+    fprintf(out, "{\"op\":\"set\",\"at\":\"%s\",\"value\":\"last\"}]}", last_place);
+    fclose(out);
+    return text;
+}
+
+/* Holds the room of an edit that is being applied. False: it was over before. */
+static bool hold_meanwhile(struct hub *hub, struct room *room, const struct session *session)
+{
+    bool held = false, over = false;
+
+    while (!held && !over) {
+        hub_lock(hub);
+        held = room->holds > 0;
+        over = !session->working;
+        if (held) {
+            room_hold(room);
+        }
+        hub_unlock(hub);
+        usleep(100);
+    }
+    return held;
+}
+
+static void release(struct room *room)
+{
+    hub_lock(room->hub);
+    room_release(room);
+    hub_unlock(room->hub);
+}
+
+/* The same client comes with another connection, which ends the first one, and leaves. */
+static void come_and_leave(struct hub *hub, const char *scene, const char *client, const char *key)
+{
+    struct session *session = open_session(hub);
+    char hello[200];
+
+    snprintf(hello, sizeof hello, "{'type':'hello','client':'%s','key':'%s'}", client, key);
+    say(session, scene, hello);
+    cJSON_Delete(await(session, "document"));
+    leave(session);
+}
+
+/* False: the edit was applied before anybody could come. */
+static bool leave_while_it_edits(struct hub *hub, struct room *room, const char *client,
+                                 const char *edit)
+{
+    struct session *session = enter(hub, room->id, client);
+    cJSON *welcome = await(session, "welcome");
+
+    begin_to_say(session, room->id, edit);
+    const bool held = hold_meanwhile(hub, room, session);
+    if (held) {
+        come_and_leave(hub, room->id, client, json_member_text(welcome, "key", ""));
+        release(room);
+    }
+    wait_for_work(session);
+    leave(session);
+    cJSON_Delete(welcome);
+    return held;
+}
+
+static void an_author_stays_for_an_edit_that_is_applied(void **state)
+{
+    struct hub *hub = open_hub();
+    struct room *room = make_scene(hub, "edited", ball);
+    char *edit = heavy_edit("/name"), *refused = heavy_edit("/nodes/ball/params/radius");
+    char client[30] = "";
+
+    (void)state;
+    for (int i = 0; snprintf(client, sizeof client, "client-%d", i) > 0 &&
+                    !leave_while_it_edits(hub, room, client, edit);
+         i++) {
+    }
+    hub_lock(hub);
+    const struct author *author = authors_find(&room->authors, client);
+    assert_non_null(author);
+    assert_int_equal(author->edit, 1);
+    assert_int_equal(author->revision, room->revision);
+    assert_null(author->session);
+    const size_t authors = room->authors.count;
+    hub_unlock(hub);
+    while (!leave_while_it_edits(hub, room, "only-refused", refused)) {
+    }
+    hub_lock(hub);
+    assert_int_equal(room->authors.count, authors);
+    hub_unlock(hub);
+    free(edit);
+    free(refused);
+    close_hub(hub);
+}
+
 /* --- the program --- */
 
 static int make_directory(void **state)
@@ -249,6 +353,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(questions_go_with_the_room),
+        cmocka_unit_test(an_author_stays_for_an_edit_that_is_applied),
     };
 
     if (argc > 1 && strcmp(argv[1], "worker") == 0) {
