@@ -83,7 +83,7 @@ void last_good_before_edit(struct room *room, const cJSON *ops)
     good->code = true;
     prove_plain(room);
     drop(room);
-    good->scene = room_copy(room);
+    good->scene = room_copy_to_edit(room);
     good->revision = room->revision;
 }
 

@@ -44,6 +44,23 @@ struct scene *room_copy(struct room *room)
     return copy;
 }
 
+/* Others may still read the document when the caller wants to change it. */
+static void release_to_edit(struct room *room)
+{
+    while (room->holds > 1) {
+        hub_wait(room->hub, &room->hub->released);
+    }
+    room_release(room);
+}
+
+struct scene *room_copy_to_edit(struct room *room)
+{
+    room_hold(room);
+    struct scene *copy = room_copy(room);
+    release_to_edit(room);
+    return copy;
+}
+
 static void destroy_scene(void *data, bool dropped)
 {
     (void)dropped;
@@ -153,7 +170,6 @@ static bool apply(struct scene *scene, const struct room_order *order, struct ro
     return ok;
 }
 
-/* Others may still read the document when the copy is to take its place. */
 static bool apply_to_copy(struct room *room, const struct room_order *order, struct room_work *out,
                           struct error *err)
 {
@@ -165,10 +181,7 @@ static bool apply_to_copy(struct room *room, const struct room_order *order, str
         scene_destroy(copy);
     }
     hub_lock(room->hub);
-    while (room->holds > 1) {
-        hub_wait(room->hub, &room->hub->released);
-    }
-    room_release(room);
+    release_to_edit(room);
     if (ok) {
         out->before = room->scene;
         room->scene = copy;

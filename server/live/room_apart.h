@@ -41,6 +41,9 @@ void room_release(struct room *room);
 struct shared_buffer *room_text(struct room *room);
 /* A copy of the document. Releases the lock for one of many nodes. */
 struct scene *room_copy(struct room *room);
+/* The same for who edits the document next, before the lock is released again. Nobody may hold the
+ * room; who has come to hold it meanwhile is waited for. */
+struct scene *room_copy_to_edit(struct room *room);
 /* Destroys a scene that was the room's; one of many nodes on a thread of tasks. */
 void room_drop_scene(struct hub *hub, struct scene *scene);
 /* Applies the order. Nobody may hold the room. Releases the lock for a heavy order. */

@@ -237,14 +237,14 @@ static char *heavy_edit(const char *last_place)
 }
 
 /* Holds the room of an edit that is being applied. False: it was over before. */
-static bool hold_meanwhile(struct hub *hub, struct room *room, const struct session *session)
+static bool hold_meanwhile(struct hub *hub, struct room *room, const bool *working)
 {
     bool held = false, over = false;
 
     while (!held && !over) {
         hub_lock(hub);
         held = room->holds > 0;
-        over = !session->working;
+        over = !*working;
         if (held) {
             room_hold(room);
         }
@@ -281,7 +281,7 @@ static bool leave_while_it_edits(struct hub *hub, struct room *room, const char 
     cJSON *welcome = await(session, "welcome");
 
     begin_to_say(session, room->id, edit);
-    const bool held = hold_meanwhile(hub, room, session);
+    const bool held = hold_meanwhile(hub, room, &session->working);
     if (held) {
         come_and_leave(hub, room->id, client, json_member_text(welcome, "key", ""));
         release(room);
@@ -322,6 +322,102 @@ static void an_author_stays_for_an_edit_that_is_applied(void **state)
     close_hub(hub);
 }
 
+/* --- readers --- */
+
+/* A union of very many balls. */
+static char *large_document(int balls)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+
+    fputs("{'format':'fieldcast/1','root':{'id':'all','type':'union','children':[", out);
+    for (int i = 0; i < balls; i++) {
+        fprintf(out, "%s{'id':'ball-%d','type':'sphere'}", i ? "," : "", i);
+    }
+    fputs("]}}", out);
+    fclose(out);
+    return text;
+}
+
+struct light_edit {
+    struct room *room;
+    cJSON *ops;
+    bool working;
+};
+
+static void *apply_light_edit(void *data)
+{
+    struct light_edit *edit = data;
+    struct hub *hub = edit->room->hub;
+    const struct room_change change = {.author = "rest"};
+    struct error err = {0};
+    uint64_t revision = 0;
+
+    hub_lock(hub);
+    assert_int_equal(room_edit(edit->room, &change, edit->ops, &revision, &err), ROOM_APPLIED);
+    edit->working = false;
+    hub_unlock(hub);
+    return NULL;
+}
+
+/* Whoever reads the document does so for as long as it takes to copy it some times. */
+static void read_for_long(const struct room *room)
+{
+    for (int i = 0; i < 5; i++) {
+        struct scene *copy = scene_copy(room->scene);
+
+        assert_string_equal(record_text(&copy->info, "name"), "");
+        scene_destroy(copy);
+    }
+}
+
+/* The first code makes the room keep a copy, for which it lets go of the lock. False: nobody came
+ * in between. */
+static bool read_while_the_first_code_comes(struct hub *hub, const char *id, const char *document)
+{
+    struct error err = {0};
+    struct room *room = make_scene(hub, id, document);
+    struct light_edit edit = {
+        .room = room,
+        .ops = json_text_parse("[{'op':'set','at':'/name','value':'new'},{'op':'insert',"
+                               "'into':'/primitives','before':null,'name':'p','value':{"
+                               "'code':'float sdf(vec3 p) { return length(p) - 1; }'}}]",
+                               &err),
+        .working = true};
+    pthread_t thread;
+
+    assert_non_null(edit.ops);
+    assert_int_equal(pthread_create(&thread, NULL, apply_light_edit, &edit), 0);
+    const bool held = hold_meanwhile(hub, room, &edit.working);
+    if (held) {
+        read_for_long(room);
+        hub_lock(hub);
+        assert_int_equal(room->revision, 1);
+        room_release(room);
+        hub_unlock(hub);
+    }
+    pthread_join(thread, NULL);
+    assert_int_equal(room->revision, 2);
+    cJSON_Delete(edit.ops);
+    return held;
+}
+
+static void a_light_edit_waits_for_readers_of_the_state_it_kept(void **state)
+{
+    struct hub *hub = open_hub();
+    char *document = large_document(LIMIT_CHILDREN);
+    char id[20] = "";
+
+    (void)state;
+    for (int i = 0; snprintf(id, sizeof id, "large-%d", i) > 0 &&
+                    !read_while_the_first_code_comes(hub, id, document);
+         i++) {
+    }
+    free(document);
+    close_hub(hub);
+}
+
 /* --- the program --- */
 
 static int make_directory(void **state)
@@ -354,6 +450,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(questions_go_with_the_room),
         cmocka_unit_test(an_author_stays_for_an_edit_that_is_applied),
+        cmocka_unit_test(a_light_edit_waits_for_readers_of_the_state_it_kept),
     };
 
     if (argc > 1 && strcmp(argv[1], "worker") == 0) {
