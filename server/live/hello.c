@@ -76,13 +76,27 @@ static void send_welcome(struct session *session, const char *key)
 
 /* --- hello --- */
 
-/* What the client missed, if the log still holds it; else the document. */
+/* Whether the log holds what the client missed, and that is less than may wait for a client. */
+static bool misses_little(const struct room *room, uint64_t known)
+{
+    size_t bytes = 0;
+
+    if (known < room->log_from || known > room->revision || known == 0) {
+        return false;
+    }
+    for (uint64_t r = known + 1; r <= room->revision && bytes <= SEND_QUEUE_TEXT_BYTES; r++) {
+        bytes += strlen(room_entry_of(room, r)->ops);
+    }
+    return bytes <= SEND_QUEUE_TEXT_BYTES;
+}
+
+/* What the client missed, or the document. */
 static void bring_up_to_date(struct session *session, const cJSON *hello)
 {
     struct room *room = session->room;
     const uint64_t known = (uint64_t)json_member_number(hello, "revision", 0);
     const bool resumes = strcmp(json_member_text(hello, "epoch", ""), room->epoch) == 0 &&
-                         known >= room->log_from && known <= room->revision && known > 0;
+                         misses_little(room, known);
 
     if (!resumes) {
         session_say(session, room_document_message(room));
@@ -118,6 +132,25 @@ static void refuse(struct session *session, const struct error *err)
     session_close(session, CLOSE_POLICY, error_kind_name(err->kind), -1);
 }
 
+static void greet(struct session *session, const cJSON *hello, const char *key)
+{
+    struct room *room = session->room;
+    struct hub *hub = session->hub;
+    struct error err = {0};
+
+    session->greeted = true;
+    send_welcome(session, key);
+    bring_up_to_date(session, hello);
+    scene_error_tell(session, room);
+    compiles_tell(session, room, clock_ms());
+    if (!hub_accepts_scene(hub, room->scene, &err)) {
+        error_set(&err, ERROR_FORBIDDEN, err.place,
+                  "this server runs no code: what has some is not shown as it is meant");
+        session_say(session, message_fault("warning", "code_off", &err));
+    }
+    session->greeted = false;
+}
+
 void hello_receive(struct session *session, const char *scene, const cJSON *message)
 {
     struct hub *hub = session->hub;
@@ -145,14 +178,6 @@ void hello_receive(struct session *session, const char *scene, const cJSON *mess
         return;
     }
     enter_room(session, room, author);
-    send_welcome(session, key);
-    bring_up_to_date(session, message);
-    scene_error_tell(session, room);
-    compiles_tell(session, room, clock_ms());
-    if (!hub_accepts_scene(hub, room->scene, &err)) {
-        error_set(&err, ERROR_FORBIDDEN, err.place,
-                  "this server runs no code: what has some is not shown as it is meant");
-        session_say(session, message_fault("warning", "code_off", &err));
-    }
+    greet(session, message, key);
     log_debug("session", "%s entered %s as %s", session->id, room->id, author->name);
 }

@@ -15,7 +15,9 @@ void session_send(struct session *session, struct shared_buffer *message)
     if (session->close_code) {
         return;
     }
-    if (!send_queue_text(&session->send_queue, message)) {
+    if (session->greeted) {
+        send_queue_greeting(&session->send_queue, message);
+    } else if (!send_queue_text(&session->send_queue, message)) {
         /* It can resume later; nothing more is kept for it. */
         log_info("session", "%s reads too slowly and is closed", session->id);
         session->close_code = CLOSE_TRY_LATER;

@@ -35,6 +35,7 @@ struct session {
     int64_t picks_rest_us; /* clock_us until which none of its picks is answered */
     int close_code;        /* > 0: close when the queue is empty, or at once when it is full */
     bool close_now;
+    bool greeted; /* its hello is being answered */
     /* Call it when something has to be written or closed; any thread. */
     void (*wake)(void *connection);
     void *connection;

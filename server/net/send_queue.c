@@ -10,6 +10,7 @@
 struct send_queue_text {
     struct send_queue_text *next;
     struct shared_buffer *text;
+    size_t counted; /* bytes */
 };
 
 static void frame_clear(struct send_queue_frame *frame)
@@ -22,7 +23,7 @@ static void text_remove(struct send_queue *queue)
 {
     struct send_queue_text *text = queue->first;
 
-    queue->text_bytes -= text->text->length;
+    queue->text_bytes -= text->counted;
     queue->text_offset = 0;
     queue->first = text->next;
     if (!queue->first) {
@@ -48,17 +49,29 @@ void send_queue_finish(struct send_queue *queue)
     shared_buffer_unref(queue->behind);
 }
 
-bool send_queue_text(struct send_queue *queue, struct shared_buffer *text)
+static void add_text(struct send_queue *queue, struct shared_buffer *text, size_t counted)
 {
-    if (queue->first && queue->text_bytes - queue->first->text->length > SEND_QUEUE_TEXT_BYTES) {
-        return false;
-    }
     struct send_queue_text *entry = memory_alloc(1, sizeof *entry);
+
     entry->text = shared_buffer_ref(text);
+    entry->counted = counted;
     *queue->end = entry;
     queue->end = &entry->next;
-    queue->text_bytes += text->length;
+    queue->text_bytes += counted;
+}
+
+bool send_queue_text(struct send_queue *queue, struct shared_buffer *text)
+{
+    if (queue->first && queue->text_bytes - queue->first->counted > SEND_QUEUE_TEXT_BYTES) {
+        return false;
+    }
+    add_text(queue, text, text->length);
     return true;
+}
+
+void send_queue_greeting(struct send_queue *queue, struct shared_buffer *text)
+{
+    add_text(queue, text, 0);
 }
 
 static uint8_t bit_of(uint8_t chain)

@@ -19,7 +19,8 @@
 enum {
     SEND_QUEUE_CHAINS = 8,
     SEND_QUEUE_PART_BYTES = 65536,
-    SEND_QUEUE_TEXT_BYTES = 2097152, /* most text queued, apart from a first message */
+    /* Most text queued, apart from a first message and from the answer to hello. */
+    SEND_QUEUE_TEXT_BYTES = 2097152,
 };
 
 struct send_queue_frame {
@@ -36,7 +37,8 @@ struct send_queue_text;
 
 struct send_queue {
     struct send_queue_text *first, **end;
-    size_t text_bytes, text_offset;
+    size_t text_bytes; /* of those that count */
+    size_t text_offset;
     struct send_queue_frame current, next;
     struct shared_buffer *behind; /* NULL: nothing */
     size_t behind_sent;           /* bytes written: once begun, it is written to its end */
@@ -58,6 +60,9 @@ void send_queue_init(struct send_queue *queue);
 void send_queue_finish(struct send_queue *queue);
 /* Queues a text; takes a reference of its own. False: too much waits, and nothing was queued. */
 bool send_queue_text(struct send_queue *queue, struct shared_buffer *text);
+/* The same of an answer to hello, which may be as long as the scene: it always fits, and does not
+ * count for others. */
+void send_queue_greeting(struct send_queue *queue, struct shared_buffer *text);
 /* Queues a frame. Returns the number of the frame that is given up, or 0. That is an older frame,
  * or this one if it could not be decoded. */
 uint32_t send_queue_frame(struct send_queue *queue, const struct frame_header *header,

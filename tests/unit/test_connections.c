@@ -226,6 +226,27 @@ static void what_waits_is_bounded(void **state)
     send_queue_finish(&queue);
 }
 
+static void an_answer_to_hello_does_not_count(void **state)
+{
+    struct shared_buffer *document = letters('d', 2 * SEND_QUEUE_TEXT_BYTES);
+    struct send_queue queue;
+    struct send_queue_piece piece;
+
+    (void)state;
+    send_queue_init(&queue);
+    add_text(&queue, 'n', 1, true);
+    send_queue_greeting(&queue, document);
+    send_queue_greeting(&queue, document);
+    add_text(&queue, 'c', SEND_QUEUE_TEXT_BYTES + 1, true);
+    add_text(&queue, 'c', 1, false);
+    while (!send_queue_is_empty(&queue)) {
+        assert_true(send_queue_next(&queue, scratch, &piece));
+    }
+    assert_int_equal(queue.text_bytes, 0);
+    send_queue_finish(&queue);
+    shared_buffer_unref(document);
+}
+
 /* --- presence --- */
 
 static unsigned silence_of(int fd)
@@ -264,6 +285,7 @@ int main(void)
         cmocka_unit_test(texts_go_between_the_parts_of_a_frame),
         cmocka_unit_test(the_newest_frame_wins),
         cmocka_unit_test(what_waits_is_bounded),
+        cmocka_unit_test(an_answer_to_hello_does_not_count),
         cmocka_unit_test(waits_for_acknowledgement_only_before_the_answer),
     };
 

@@ -19,6 +19,7 @@
 #include "server/live/hub_life.h"
 #include "server/live/hub_rooms.h"
 #include "server/live/room.h"
+#include "server/live/scene_error.h"
 #include "server/live/session.h"
 #include "server/live/session_life.h"
 #include "server/live/session_messages.h"
@@ -324,8 +325,8 @@ static void an_author_stays_for_an_edit_that_is_applied(void **state)
 
 /* --- readers --- */
 
-/* A union of very many balls. */
-static char *large_document(int balls)
+/* A union of very many balls, each with a name of so many characters. */
+static char *large_document(int balls, int name)
 {
     char *text = NULL;
     size_t length = 0;
@@ -333,7 +334,7 @@ static char *large_document(int balls)
 
     fputs("{'format':'fieldcast/1','root':{'id':'all','type':'union','children':[", out);
     for (int i = 0; i < balls; i++) {
-        fprintf(out, "%s{'id':'ball-%d','type':'sphere'}", i ? "," : "", i);
+        fprintf(out, "%s{'id':'ball-%d','type':'sphere','name':'%0*d'}", i ? "," : "", i, name, i);
     }
     fputs("]}}", out);
     fclose(out);
@@ -406,7 +407,7 @@ static bool read_while_the_first_code_comes(struct hub *hub, const char *id, con
 static void a_light_edit_waits_for_readers_of_the_state_it_kept(void **state)
 {
     struct hub *hub = open_hub();
-    char *document = large_document(LIMIT_CHILDREN);
+    char *document = large_document(LIMIT_CHILDREN, 1);
     char id[20] = "";
 
     (void)state;
@@ -414,6 +415,111 @@ static void a_light_edit_waits_for_readers_of_the_state_it_kept(void **state)
                     !read_while_the_first_code_comes(hub, id, document);
          i++) {
     }
+    free(document);
+    close_hub(hub);
+}
+
+/* --- coming back --- */
+
+/* An edit that brings `bytes` and more, and leaves the scene small. */
+static char *long_edit(size_t bytes)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+
+    fputc('[', out);
+    for (size_t at = 0; at < bytes; at += 180) {
+        fprintf(out, "%s{'op':'set','at':'/name','value':'%0150zu'}", at ? "," : "", at);
+    }
+    fputc(']', out);
+    fclose(out);
+    return text;
+}
+
+static void edit_scene(struct room *room, const char *text)
+{
+    const struct room_change change = {.author = "rest"};
+    struct error err = {0};
+    cJSON *ops = json_text_parse(text, &err);
+    uint64_t revision = 0;
+
+    hub_lock(room->hub);
+    assert_int_equal(room_edit(room, &change, ops, &revision, &err), ROOM_APPLIED);
+    hub_unlock(room->hub);
+    cJSON_Delete(ops);
+}
+
+static struct session *come_back(struct hub *hub, const struct room *room, uint64_t revision)
+{
+    struct session *session = open_session(hub);
+    char hello[200];
+
+    snprintf(hello, sizeof hello,
+             "{'type':'hello','client':'comes-back','revision':%d,'epoch':'%s'}", (int)revision,
+             room->epoch);
+    say(session, room->id, hello);
+    hub_lock(hub);
+    assert_int_equal(session->close_code, 0);
+    hub_unlock(hub);
+    return session;
+}
+
+static void assert_next(struct session *session, const char *type, uint64_t revision)
+{
+    hub_lock(session->hub);
+    cJSON *message = next_message(session);
+    hub_unlock(session->hub);
+    assert_string_equal(json_member_text(message, "type", ""), type);
+    assert_int_equal(json_member_number(message, "revision", 0), revision);
+    cJSON_Delete(message);
+}
+
+/* The log has 3 MB of edits, and a client may miss all of them. */
+static void who_missed_much_gets_the_document(void **state)
+{
+    struct hub *hub = open_hub();
+    struct room *room = make_scene(hub, "missed", ball);
+    char *edit = long_edit(500000);
+
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        edit_scene(room, edit);
+    }
+    assert_int_equal(room->log_from, 1);
+    struct session *session = come_back(hub, room, 1);
+    assert_next(session, "welcome", 7);
+    assert_next(session, "document", 7);
+    leave(session);
+    session = come_back(hub, room, 5);
+    assert_next(session, "welcome", 7);
+    assert_next(session, "changed", 6);
+    assert_next(session, "changed", 7);
+    leave(session);
+    free(edit);
+    close_hub(hub);
+}
+
+/* The document is longer than what may wait, and something is said about the scene behind it. */
+static void a_long_document_and_notices_are_an_answer_to_hello(void **state)
+{
+    struct hub *hub = open_hub();
+    char *document = large_document(LIMIT_CHILDREN, 200);
+    struct room *room = make_scene(hub, "long", document);
+    const struct error err = {.kind = ERROR_COMPILE, .place = "/nodes/all", .message = "is wrong"};
+
+    (void)state;
+    hub_lock(hub);
+    scene_error_set(room, &err, 1);
+    hub_unlock(hub);
+    struct session *session = come_back(hub, room, 0);
+    assert_next(session, "welcome", 1);
+    hub_lock(hub);
+    assert_true(room->text->length > SEND_QUEUE_TEXT_BYTES);
+    hub_unlock(hub);
+    assert_next(session, "document", 1);
+    assert_next(session, "notice", 0);
+    leave(session);
     free(document);
     close_hub(hub);
 }
@@ -451,6 +557,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(questions_go_with_the_room),
         cmocka_unit_test(an_author_stays_for_an_edit_that_is_applied),
         cmocka_unit_test(a_light_edit_waits_for_readers_of_the_state_it_kept),
+        cmocka_unit_test(who_missed_much_gets_the_document),
+        cmocka_unit_test(a_long_document_and_notices_are_an_answer_to_hello),
     };
 
     if (argc > 1 && strcmp(argv[1], "worker") == 0) {
