@@ -34,6 +34,7 @@ struct scan {
     char *names;
     size_t name_length, name_capacity;
     bool keep_name; /* the string read now is a key */
+    bool printed;   /* by json_print */
     struct error *err;
 };
 
@@ -443,7 +444,7 @@ static bool scan_object(struct scan *scan, int depth)
 static bool scan_value(struct scan *scan, int depth)
 {
     skip_space(scan);
-    if (++scan->values > LIMIT_JSON_VALUES) {
+    if (++scan->values > LIMIT_JSON_VALUES && !scan->printed) {
         return fail_limit(scan, scan->at, "values", LIMIT_JSON_VALUES);
     }
     const int c = peek(scan);
@@ -480,23 +481,40 @@ static bool scan_text(struct scan *scan)
     return scan->at == scan->length || fail_expected(scan, "nothing more");
 }
 
+/* Takes what the scan has allocated. */
+static cJSON *parse(struct scan *scan)
+{
+    const bool ok = scan_text(scan);
+
+    free(scan->keys);
+    free(scan->names);
+    if (!ok) {
+        return NULL;
+    }
+    cJSON *json = cJSON_ParseWithLengthOpts((const char *)scan->text, scan->length, NULL, false);
+    if (!json) {
+        error_set(scan->err, ERROR_INTERNAL, "",
+                  "the JSON parser refused what the pre-scan accepted");
+    }
+    return json;
+}
+
 cJSON *json_parse(const char *text, size_t length, struct error *err)
 {
+    struct scan scan = {.text = (const unsigned char *)text, .length = length, .err = err};
+
     if (length > LIMIT_DOCUMENT_BYTES) {
         error_set(err, ERROR_TOO_LARGE, "", "%zu bytes are above the maximum %d", length,
                   LIMIT_DOCUMENT_BYTES);
         return NULL;
     }
-    struct scan scan = {.text = (const unsigned char *)text, .length = length, .err = err};
-    const bool ok = scan_text(&scan);
-    free(scan.keys);
-    free(scan.names);
-    if (!ok) {
-        return NULL;
-    }
-    cJSON *json = cJSON_ParseWithLengthOpts(text, length, NULL, false);
-    if (!json) {
-        error_set(err, ERROR_INTERNAL, "", "the JSON parser refused what the pre-scan accepted");
-    }
-    return json;
+    return parse(&scan);
+}
+
+cJSON *json_parse_printed(const char *text, size_t length, struct error *err)
+{
+    struct scan scan = {
+        .text = (const unsigned char *)text, .length = length, .printed = true, .err = err};
+
+    return parse(&scan);
 }

@@ -12,6 +12,9 @@
 
 /* Pre-scan and parse exactly `length` bytes. NULL and `err` ("line 3, column 7") on failure. */
 cJSON *json_parse(const char *text, size_t length, struct error *err);
+/* The same of what json_print has written, in any number of bytes and values: a scene that grows by
+ * edits may become longer than what one client may send. */
+cJSON *json_parse_printed(const char *text, size_t length, struct error *err);
 
 /* Sorts the members of an object that may have `names` (NULL-terminated) and no other: that of
  * name i goes to found[i], NULL where absent. */

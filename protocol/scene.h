@@ -58,6 +58,8 @@ struct scene {
  * first free of TYPE-1, TYPE-2, ..., models' nodes first; a number is not used again while the
  * scene is in memory. Caller destroys. */
 struct scene *scene_parse(const char *text, size_t length, struct error *err);
+/* The same of what scene_print has written, which may be longer (json_parse_printed). */
+struct scene *scene_parse_printed(const char *text, size_t length, struct error *err);
 struct scene *scene_read(const cJSON *document, struct error *err);
 struct scene *scene_create_empty(void);
 struct scene *scene_copy(const struct scene *scene);

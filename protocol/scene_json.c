@@ -324,12 +324,22 @@ struct scene *scene_read(const cJSON *document, struct error *err)
     return scene;
 }
 
-struct scene *scene_parse(const char *text, size_t length, struct error *err)
+/* Takes `document`. */
+static struct scene *take_document(cJSON *document, struct error *err)
 {
-    cJSON *document = json_parse(text, length, err);
     struct scene *scene = document ? scene_read(document, err) : NULL;
 
     cJSON_Delete(document);
     memory_settle();
     return scene;
+}
+
+struct scene *scene_parse(const char *text, size_t length, struct error *err)
+{
+    return take_document(json_parse(text, length, err), err);
+}
+
+struct scene *scene_parse_printed(const char *text, size_t length, struct error *err)
+{
+    return take_document(json_parse_printed(text, length, err), err);
 }

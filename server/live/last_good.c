@@ -31,7 +31,7 @@ static void step(struct room *room)
 {
     struct last_good *good = &room->last_good;
     const char *text = room_entry_of(room, good->revision + 1)->ops;
-    cJSON *ops = json_parse(text, strlen(text), NULL);
+    cJSON *ops = json_parse_printed(text, strlen(text), NULL);
 
     if (ops && edit_apply(good->scene, ops, NULL, NULL, NULL)) {
         good->revision++;

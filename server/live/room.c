@@ -81,7 +81,7 @@ static bool replay(struct room *room, const struct store_edit *edit, struct erro
                   room->revision + 1);
         return false;
     }
-    ops = json_parse(edit->ops, strlen(edit->ops), err);
+    ops = json_parse_printed(edit->ops, strlen(edit->ops), err);
     ok = ops && edit_apply(room->scene, ops, NULL, NULL, err);
     cJSON_Delete(ops);
     room->revision = edit->revision;
@@ -92,8 +92,8 @@ static bool replay(struct room *room, const struct store_edit *edit, struct erro
 static bool recall(struct room *room, const struct store_edit *past, struct error *err)
 {
     const struct store_step *step = &past->step;
-    cJSON *ops = json_parse(past->ops, strlen(past->ops), err);
-    cJSON *inverse = json_parse(step->inverse, strlen(step->inverse), err);
+    cJSON *ops = json_parse_printed(past->ops, strlen(past->ops), err);
+    cJSON *inverse = json_parse_printed(step->inverse, strlen(step->inverse), err);
     const bool ok = ops && inverse;
 
     if (ok) {
@@ -131,7 +131,7 @@ static void recall_all(struct room *room, const struct store_loaded *loaded)
 struct room *room_load(struct hub *hub, const char *id, const struct store_loaded *loaded,
                        struct error *err)
 {
-    struct scene *scene = scene_parse(loaded->document, strlen(loaded->document), err);
+    struct scene *scene = scene_parse_printed(loaded->document, strlen(loaded->document), err);
 
     if (!scene) {
         return NULL;

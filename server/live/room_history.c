@@ -69,7 +69,7 @@ cJSON *room_history_since(const struct room *room, uint64_t from)
 
     for (uint64_t r = from + 1; r <= room->revision; r++) {
         const char *text = room_entry_of(room, r)->ops;
-        cJSON *ops = json_parse(text, strlen(text), NULL);
+        cJSON *ops = json_parse_printed(text, strlen(text), NULL);
 
         while (ops && ops->child) {
             cJSON_AddItemToArray(all, cJSON_DetachItemViaPointer(ops, ops->child));

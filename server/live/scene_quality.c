@@ -98,7 +98,7 @@ static struct scene *take(struct hub *hub, const char *id, uint64_t *out_revisio
     struct shared_buffer *text = room_text(room);
     *out_revision = room->revision;
     hub_unlock(hub);
-    struct scene *scene = scene_parse((const char *)text->bytes, text->length - 1, err);
+    struct scene *scene = scene_parse_printed((const char *)text->bytes, text->length - 1, err);
     shared_buffer_unref(text);
     return scene;
 }

@@ -261,6 +261,26 @@ static void limits_hold(void **state)
     free(large);
 }
 
+/* What edits and ids that are filled in make of a text is read again, however long it is. */
+static void what_was_printed_has_no_limit_of_length(void **state)
+{
+    char *bytes = repeated("[", " ", LIMIT_DOCUMENT_BYTES, "1]");
+    char *values = repeated("[", "0,", LIMIT_JSON_VALUES, "0]");
+    char *wrong = repeated("[", " ", LIMIT_DOCUMENT_BYTES, "01]");
+    cJSON *json = json_parse_printed(bytes, strlen(bytes), NULL);
+
+    (void)state;
+    assert_int_equal(cJSON_GetArraySize(json), 1);
+    cJSON_Delete(json);
+    json = json_parse_printed(values, strlen(values), NULL);
+    assert_int_equal(cJSON_GetArraySize(json), LIMIT_JSON_VALUES + 1);
+    cJSON_Delete(json);
+    assert_null(json_parse_printed(wrong, strlen(wrong), NULL));
+    free(bytes);
+    free(values);
+    free(wrong);
+}
+
 static void numbers_are_short(void **state)
 {
     (void)state;
@@ -434,6 +454,7 @@ int main(void)
         cmocka_unit_test(utf8_in_pieces),
         cmocka_unit_test(refuses_duplicate_members),
         cmocka_unit_test(limits_hold),
+        cmocka_unit_test(what_was_printed_has_no_limit_of_length),
         cmocka_unit_test(numbers_are_short),
         cmocka_unit_test(numbers_read_back),
         cmocka_unit_test(pretty_print),

@@ -524,6 +524,62 @@ static void a_long_document_and_notices_are_an_answer_to_hello(void **state)
     close_hub(hub);
 }
 
+/* --- long scenes --- */
+
+/* As many equations as one client may send at once. With the ids that they get, the edit is longer
+ * than that. */
+static char *insert_equations(size_t *out_count)
+{
+    enum { ITEM = LIMIT_EQUATION_BYTES + 93 };
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+
+    *out_count = 0;
+    for (; ftell(out) + ITEM + 2 < LIMIT_DOCUMENT_BYTES; ++*out_count) {
+        fprintf(out,
+                "%c{'op':'insert','into':'/nodes/all','before':null,'value':{'type':'implicit',"
+                "'params':{'equation':'x = %0*zu'}}}",
+                *out_count ? ',' : '[', LIMIT_EQUATION_BYTES - 4, *out_count);
+    }
+    fputc(']', out);
+    fclose(out);
+    assert_true(length + 16 * *out_count > LIMIT_DOCUMENT_BYTES);
+    return text;
+}
+
+static void assert_read(const char *id, uint64_t revision, size_t nodes)
+{
+    struct hub *hub = open_hub();
+    struct error err = {0};
+    struct room *room = hub_lock_room(hub, id, &err);
+
+    assert_string_equal(err.message, "");
+    assert_int_equal(room->revision, revision);
+    assert_int_equal(room->scene->node_count, nodes);
+    hub_unlock(hub);
+    close_hub(hub);
+}
+
+/* What edits have made is read, however long it is: first from the log, then from the snapshot that
+ * is stored at the end. */
+static void what_grew_by_edits_is_read_again(void **state)
+{
+    struct hub *hub = open_hub();
+    struct room *room =
+        make_scene(hub, "grows", "{'format':'fieldcast/1','root':{'id':'all','type':'union'}}");
+    size_t count;
+    char *edit = insert_equations(&count);
+
+    (void)state;
+    edit_scene(room, edit);
+    edit_scene(room, edit);
+    free(edit);
+    hub_destroy(hub); /* without a snapshot */
+    assert_read("grows", 3, 1 + 2 * count);
+    assert_read("grows", 3, 1 + 2 * count);
+}
+
 /* --- the program --- */
 
 static int make_directory(void **state)
@@ -559,6 +615,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_light_edit_waits_for_readers_of_the_state_it_kept),
         cmocka_unit_test(who_missed_much_gets_the_document),
         cmocka_unit_test(a_long_document_and_notices_are_an_answer_to_hello),
+        cmocka_unit_test(what_grew_by_edits_is_read_again),
     };
 
     if (argc > 1 && strcmp(argv[1], "worker") == 0) {
