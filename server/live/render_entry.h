@@ -19,8 +19,9 @@ enum {
     RENDER_LOSSLESS = 2,
     RENDER_IMAGE = 3,
     RENDER_THUMBNAIL = RENDER_STILL, /* drawn at rest alone; thumbnails.h */
-    RENDER_DEADLINE_MS = 120000,     /* after so long without progress an order fails */
-    RENDER_DEATHS = 2,               /* workers that one scene may have ended */
+    /* After so long without progress, also of another order of its account, an order fails. */
+    RENDER_DEADLINE_MS = 120000,
+    RENDER_DEATHS = 2, /* workers that one scene may have ended */
 };
 
 struct render_queue {

@@ -409,6 +409,18 @@ static void undrawn(const struct render_entry *entry, struct error *err)
     }
 }
 
+/* What waits for another order of its account goes on with that. */
+static void go_on(struct render_queue *queue, const char *account)
+{
+    const int64_t deadline = clock_ms() + RENDER_DEADLINE_MS;
+
+    for (struct render_entry *entry = queue->first; entry; entry = entry->next) {
+        if (strcmp(entry->account, account) == 0) {
+            entry->deadline = deadline;
+        }
+    }
+}
+
 /* NULL: cancelled meanwhile. What is heard of goes on. */
 static struct render_entry *heard_of(struct hub *hub, uint32_t job)
 {
@@ -417,7 +429,7 @@ static struct render_entry *heard_of(struct hub *hub, uint32_t job)
     if (!entry || !entry->sent) {
         return NULL;
     }
-    entry->deadline = clock_ms() + RENDER_DEADLINE_MS;
+    go_on(hub->render_queue, entry->account);
     return entry;
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Live sessions without connections: what happens to a scene, its authors and its questions while
- * others read the document, leave, or come again. The worker is this program, which says nothing
- * then. */
+ * others read the document, leave, or come again. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,8 +14,6 @@
 
 #include "protocol/json.h"
 #include "protocol/memory.h"
-#include "renderer/worker/worker.h"
-#include "server/live/hub_life.h"
 #include "server/live/hub_rooms.h"
 #include "server/live/room.h"
 #include "server/live/scene_error.h"
@@ -24,31 +21,11 @@
 #include "server/live/session_life.h"
 #include "server/live/session_messages.h"
 #include "tests/support/json_text.h"
+#include "tests/support/silent_hub.h"
 
-static char directory[] = "/tmp/fieldcast-sessions-XXXXXX";
 static pthread_cond_t woken = PTHREAD_COND_INITIALIZER; /* with the hub's lock */
 
-/* --- a server without connections --- */
-
-static struct hub *open_hub(void)
-{
-    static const char *const worker[] = {"test_sessions", "worker", NULL};
-    struct error err = {0};
-    struct hub *hub = hub_create(&(struct hub_params){.data_dir = directory,
-                                                      .worker_argv = worker,
-                                                      .worker_silence_ms = INT32_MAX,
-                                                      .worker_busy_ms = INT32_MAX},
-                                 &err);
-
-    assert_non_null(hub);
-    return hub;
-}
-
-static void close_hub(struct hub *hub)
-{
-    hub_drain(hub);
-    hub_destroy(hub);
-}
+/* --- scenes --- */
 
 /* The document of a new scene is `text`, with ' instead of ". */
 static struct room *make_scene(struct hub *hub, const char *id, const char *text)
@@ -195,7 +172,7 @@ static void overflow(struct session *session)
 /* The questions of a session that reads too slowly rest while its scene is deleted. */
 static void questions_go_with_the_room(void **state)
 {
-    struct hub *hub = open_hub();
+    struct hub *hub = silent_hub_open();
 
     (void)state;
     make_scene(hub, "deleted", ball);
@@ -216,7 +193,7 @@ static void questions_go_with_the_room(void **state)
     cJSON_Delete(await(other, "bounded"));
     leave(slow);
     leave(other);
-    close_hub(hub);
+    silent_hub_close(hub);
 }
 
 /* --- authors --- */
@@ -295,7 +272,7 @@ static bool leave_while_it_edits(struct hub *hub, struct room *room, const char 
 
 static void an_author_stays_for_an_edit_that_is_applied(void **state)
 {
-    struct hub *hub = open_hub();
+    struct hub *hub = silent_hub_open();
     struct room *room = make_scene(hub, "edited", ball);
     char *edit = heavy_edit("/name"), *refused = heavy_edit("/nodes/ball/params/radius");
     char client[30] = "";
@@ -320,7 +297,7 @@ static void an_author_stays_for_an_edit_that_is_applied(void **state)
     hub_unlock(hub);
     free(edit);
     free(refused);
-    close_hub(hub);
+    silent_hub_close(hub);
 }
 
 /* --- readers --- */
@@ -406,7 +383,7 @@ static bool read_while_the_first_code_comes(struct hub *hub, const char *id, con
 
 static void a_light_edit_waits_for_readers_of_the_state_it_kept(void **state)
 {
-    struct hub *hub = open_hub();
+    struct hub *hub = silent_hub_open();
     char *document = large_document(LIMIT_CHILDREN, 1);
     char id[20] = "";
 
@@ -416,7 +393,7 @@ static void a_light_edit_waits_for_readers_of_the_state_it_kept(void **state)
          i++) {
     }
     free(document);
-    close_hub(hub);
+    silent_hub_close(hub);
 }
 
 /* --- coming back --- */
@@ -478,7 +455,7 @@ static void assert_next(struct session *session, const char *type, uint64_t revi
 /* The log has 3 MB of edits, and a client may miss all of them. */
 static void who_missed_much_gets_the_document(void **state)
 {
-    struct hub *hub = open_hub();
+    struct hub *hub = silent_hub_open();
     struct room *room = make_scene(hub, "missed", ball);
     char *edit = long_edit(500000);
 
@@ -497,13 +474,13 @@ static void who_missed_much_gets_the_document(void **state)
     assert_next(session, "changed", 7);
     leave(session);
     free(edit);
-    close_hub(hub);
+    silent_hub_close(hub);
 }
 
 /* The document is longer than what may wait, and something is said about the scene behind it. */
 static void a_long_document_and_notices_are_an_answer_to_hello(void **state)
 {
-    struct hub *hub = open_hub();
+    struct hub *hub = silent_hub_open();
     char *document = large_document(LIMIT_CHILDREN, 200);
     struct room *room = make_scene(hub, "long", document);
     const struct error err = {.kind = ERROR_COMPILE, .place = "/nodes/all", .message = "is wrong"};
@@ -521,7 +498,7 @@ static void a_long_document_and_notices_are_an_answer_to_hello(void **state)
     assert_next(session, "notice", 0);
     leave(session);
     free(document);
-    close_hub(hub);
+    silent_hub_close(hub);
 }
 
 /* --- long scenes --- */
@@ -550,7 +527,7 @@ static char *insert_equations(size_t *out_count)
 
 static void assert_read(const char *id, uint64_t revision, size_t nodes)
 {
-    struct hub *hub = open_hub();
+    struct hub *hub = silent_hub_open();
     struct error err = {0};
     struct room *room = hub_lock_room(hub, id, &err);
 
@@ -558,14 +535,14 @@ static void assert_read(const char *id, uint64_t revision, size_t nodes)
     assert_int_equal(room->revision, revision);
     assert_int_equal(room->scene->node_count, nodes);
     hub_unlock(hub);
-    close_hub(hub);
+    silent_hub_close(hub);
 }
 
 /* What edits have made is read, however long it is: first from the log, then from the snapshot that
  * is stored at the end. */
 static void what_grew_by_edits_is_read_again(void **state)
 {
-    struct hub *hub = open_hub();
+    struct hub *hub = silent_hub_open();
     struct room *room =
         make_scene(hub, "grows", "{'format':'fieldcast/1','root':{'id':'all','type':'union'}}");
     size_t count;
@@ -580,33 +557,6 @@ static void what_grew_by_edits_is_read_again(void **state)
     assert_read("grows", 3, 1 + 2 * count);
 }
 
-/* --- the program --- */
-
-static int make_directory(void **state)
-{
-    (void)state;
-    return mkdtemp(directory) ? 0 : -1;
-}
-
-static int remove_directory(void **state)
-{
-    char command[100];
-
-    (void)state;
-    snprintf(command, sizeof command, "rm -r %s", directory);
-    return system(command);
-}
-
-/* Says nothing until the front ends. */
-static int be_a_worker(void)
-{
-    char byte[256];
-
-    while (read(WORKER_FD, byte, sizeof byte) > 0) {
-    }
-    return 0;
-}
-
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -618,8 +568,9 @@ int main(int argc, char **argv)
         cmocka_unit_test(what_grew_by_edits_is_read_again),
     };
 
-    if (argc > 1 && strcmp(argv[1], "worker") == 0) {
-        return be_a_worker();
+    if (silent_hub_was_worker(argc, argv)) {
+        return 0;
     }
-    return cmocka_run_group_tests_name("sessions", tests, make_directory, remove_directory);
+    return cmocka_run_group_tests_name("sessions", tests, silent_hub_make_directory,
+                                       silent_hub_remove_directory);
 }
