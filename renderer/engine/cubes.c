@@ -272,8 +272,7 @@ static size_t bytes_of(const struct cubes *cubes, const struct engine_program *p
     return bytes;
 }
 
-/* For all that are kept: LIMIT_CUBES_BYTES, or less on a small machine. */
-static size_t most_bytes(void)
+size_t cubes_bytes_most(void)
 {
     const size_t memory = (size_t)sysconf(_SC_PHYS_PAGES) * (size_t)sysconf(_SC_PAGESIZE);
     size_t most = LIMIT_CUBES_BYTES;
@@ -290,7 +289,7 @@ static size_t most_bytes(void)
 
 void cubes_give(struct engine_cubes *kept, struct engine_program *program, struct cubes *cubes)
 {
-    const size_t most = most_bytes();
+    const size_t most = cubes_bytes_most();
     size_t bytes = 0;
 
     if (bytes_of(cubes, program) > most) {

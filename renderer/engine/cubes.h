@@ -24,6 +24,8 @@ struct cubes *cubes_take(struct engine_cubes *kept, const struct engine_picture 
                          uint32_t *out_picture);
 /* Keeps the cubes for the next picture, or frees them. */
 void cubes_give(struct engine_cubes *kept, struct engine_program *program, struct cubes *cubes);
+/* For all that are kept: LIMIT_CUBES_BYTES, or less on a small machine. */
+size_t cubes_bytes_most(void);
 /* How often a thread's cubes were made anew, all in all. */
 static inline uint32_t cubes_times(const struct cells spaces[ENGINE_SPACES])
 {

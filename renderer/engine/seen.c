@@ -9,6 +9,7 @@
 #include "protocol/memory.h"
 
 #define SEEN_PIXELS (1 << 22) /* of a picture that is kept */
+#define SEEN_PART 4           /* of the bytes of all cubes, one picture may have a fourth */
 
 struct shown {
     enum output kind;
@@ -24,7 +25,7 @@ struct seen_picture {
     int width, height;
     int across, down;            /* blocks */
     struct seen_square **blocks; /* what each shows; NULL: nothing yet */
-    size_t bytes;
+    size_t bytes, most;          /* of it; no square is kept beyond that */
 };
 
 /* --- a picture --- */
@@ -69,6 +70,7 @@ static struct seen_picture *create(const struct engine_picture *picture,
     const int width = picture->frame->camera.size[0], height = picture->frame->camera.size[1];
     struct seen_picture *seen = memory_alloc(1, sizeof *seen);
 
+    seen->most = cubes_bytes_most() / SEEN_PART;
     seen->key = *picture;
     seen->frame = *picture->frame;
     seen->width = width;
@@ -359,12 +361,13 @@ void seen_take(struct seen_picture *seen, struct seen_square *square,
     copy_pixels(seen, work, rect, true);
     square->blocks = 1; /* held here */
     seen->bytes += square_bytes(square);
+    const bool keeps = seen->bytes <= seen->most;
     for (int y = top; y < bottom; y++) {
         for (int x = left; x < right; x++) {
             struct seen_square **block = &seen->blocks[y * seen->across + x];
             let_go(seen, *block);
-            *block = square;
-            square->blocks++;
+            *block = keeps ? square : NULL;
+            square->blocks += keeps;
         }
     }
     let_go(seen, square);

@@ -67,7 +67,8 @@ struct seen_square *seen_next(const struct seen_picture *seen, size_t *at);
  * drawn, each at most `side` wide and high; the caller frees it. Returns their number. */
 size_t seen_divide(struct seen_picture *seen, const struct cubes *cubes,
                    const struct engine_work *work, int side, struct engine_part **out);
-/* Takes a square that was drawn, and its pixels from the outputs. */
+/* Takes a square that was drawn, and its pixels from the outputs. Where the picture has as much as
+ * it may have, the square is unknown. */
 void seen_take(struct seen_picture *seen, struct seen_square *square,
                const struct engine_work *work);
 

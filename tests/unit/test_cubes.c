@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "protocol/memory.h"
 #include "renderer/engine/cubes.h"
 #include "tests/support/json_text.h"
 
@@ -197,6 +198,34 @@ static void what_was_taken_is_gone(void **state)
     cubes_give(kept, programs[0], theirs);
 }
 
+/* The second one goes beyond what a picture may have. */
+static void squares_that_take_too_much_are_unknown(void **state)
+{
+    static uint8_t pixels[2 * SQUARE * SQUARE];
+    const struct frame_uniforms frame = {.camera = {.size = {2 * SQUARE, SQUARE}}};
+    const struct engine_picture picture = {.program = programs[0], .frame = &frame};
+    const struct engine_output output = {.channels = 1, .pixels = pixels, .stride = 2 * SQUARE};
+    const struct engine_work work = {
+        .tile = {0, 0, 2 * SQUARE, SQUARE}, .outputs = &output, .output_count = 1};
+    struct seen seen = {{NULL}};
+    struct seen_picture *opened = seen_open(&seen, &picture, &output, 1);
+    size_t at = 0;
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        struct seen_square *square = memory_alloc(1, sizeof *square);
+        square->rect = (struct engine_rect){i * SQUARE, 0, SQUARE, SQUARE};
+        square->bytes_of_values = i == 0 ? 1000 : cubes_bytes_most();
+        seen_take(opened, square, &work);
+    }
+    const struct seen_square *known = seen_next(opened, &at);
+    assert_non_null(known);
+    assert_int_equal(known->rect.x, 0);
+    assert_null(seen_next(opened, &at));
+    assert_true(seen_bytes(&seen) < 10000);
+    seen_finish(&seen);
+}
+
 static int set_up(void **state)
 {
     static const char *const types[FIELDS] = {"sphere", "box", "torus", "capsule", "cylinder"};
@@ -239,6 +268,7 @@ int main(void)
                                         tear_down),
         cmocka_unit_test_setup_teardown(the_one_that_waited_longest_goes, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_was_taken_is_gone, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(squares_that_take_too_much_are_unknown, set_up, tear_down),
     };
 
     return cmocka_run_group_tests_name("cubes", tests, NULL, NULL);
