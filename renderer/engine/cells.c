@@ -13,7 +13,7 @@
 #define WORN_RUN 256           /* a cube that has run so many operations has smaller ones, */
 #define WORN_TAPE 24           /* if its tape is as long as this */
 #define CELL_LIMIT (1 << 20)   /* with more cubes, */
-#define TAPES_LIMIT (1 << 26)  /* or words of tapes, of all threads, these are made anew */
+#define TAPES_LIMIT (1 << 26)  /* or words of tapes and drops, of all threads, all are made anew */
 #define TAPE_STEPS 128         /* the least tape that has room to grow is twice as long */
 #define WASTED_LIMIT (1 << 21) /* words of tapes that are not used, which are let be */
 #define BOUND_NEAR 2           /* a cube is far from surfaces that are so many of its halves away */
@@ -154,8 +154,9 @@ static void cells_begin(struct lanes *c)
 static void cells_limit(struct lanes *c)
 {
     struct cells *cells = c->cells;
+    const size_t words = cells->used + cells->drops_used / 2;
 
-    if (cells->count > CELL_LIMIT || cells->used > TAPES_LIMIT / (size_t)c->threads) {
+    if (cells->count > CELL_LIMIT || words > TAPES_LIMIT / (size_t)c->threads) {
         cells->count = 0;
         cells_begin(c);
     }
