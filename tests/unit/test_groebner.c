@@ -35,7 +35,7 @@ enum { ORDERS = sizeof orders / sizeof orders[0] };
 
 static void random_monomial(exponents out)
 {
-    memset(out, 0, LETTERS * sizeof *out);
+    memset(out, 0, sizeof(exponents));
     for (int i = 0; i < LETTERS; i++) {
         out[i] = below(3) ? below(6) : 0;
     }
