@@ -206,6 +206,7 @@ static bool cell_has(const struct cell *cell, const struct spots *s, int lane)
 
     return apart < 1 << cell->bits;
 }
+
 /* How a tape takes the second operand alone. What cuts is outside of what it cuts; but where the
  * first operand is hidden, the second is the result. */
 static uint32_t second_alone(const struct lanes *c, const struct operation *in)
@@ -214,7 +215,6 @@ static uint32_t second_alone(const struct lanes *c, const struct operation *in)
 
     return in->rule == SDF_FIRST && !one_is_hidden ? TAPE_NEGATE : TAPE_MOVE;
 }
-
 
 /* The tape of one child, from behind: only what a result is made of. */
 static void make_tape(struct lanes *c, const struct cell *parent, int number, struct cell *child)
