@@ -245,6 +245,12 @@ bool edit_check(const cJSON *ops, struct error *err)
 
 /* --- applying --- */
 
+static bool apply_next(struct editor *editor, const cJSON *op)
+{
+    editor->next = op->next;
+    return find_operation(op)->apply(editor, op);
+}
+
 static void roll_back(struct editor *failed)
 {
     struct editor editor = {
@@ -253,8 +259,8 @@ static void roll_back(struct editor *failed)
         .inverse = cJSON_CreateArray(),
     };
 
-    for (const cJSON *op = failed->inverse->child; op; op = op->next) {
-        const bool undone = find_operation(op)->apply(&editor, op);
+    for (const cJSON *op = failed->inverse->child; op; op = editor.next) {
+        const bool undone = apply_next(&editor, op);
         assert(undone);
         (void)undone;
     }
@@ -285,8 +291,8 @@ static bool apply(struct scene *scene, const cJSON *ops, bool lenient, cJSON **o
         .err = err,
     };
     bool ok = true;
-    for (const cJSON *op = ops->child; op && ok; op = op->next) {
-        ok = find_operation(op)->apply(&editor, op) || lenient;
+    for (const cJSON *op = ops->child; op && ok; op = editor.next) {
+        ok = apply_next(&editor, op) || lenient;
     }
     if (!ok) {
         roll_back(&editor);

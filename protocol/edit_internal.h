@@ -17,9 +17,10 @@ struct path {
 
 struct editor {
     struct scene *scene;
-    cJSON *applied; /* canonical form of what was done */
-    cJSON *inverse; /* in the order of undoing */
-    bool lenient;   /* a missing `before` means last */
+    const cJSON *next; /* the operation after this one; one that does both moves it on */
+    cJSON *applied;    /* canonical form of what was done */
+    cJSON *inverse;    /* in the order of undoing */
+    bool lenient;      /* a missing `before` means last */
     struct error *err;
 };
 
@@ -41,7 +42,8 @@ struct resource *edit_find_resource(const struct editor *editor, const struct re
                                     const char *name, const char *place);
 
 /* Sets what decides of which type a record is: values that the new type knows and accepts stay, and
- * the inverse restores the others (edit_type.c). */
+ * the inverse restores the others (edit_type.c). A node's type is set at once with its primitive or
+ * model where the next operation names that. */
 bool edit_set_node_type(struct editor *editor, struct node *node, const char *at,
                         const cJSON *value);
 /* The name of a primitive or model. */

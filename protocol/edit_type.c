@@ -73,10 +73,101 @@ static void resource_values(char out[PATH_TEXT_BYTES + 1], const struct resource
              kind->values ? "/" : "", kind->values ? kind->values : "");
 }
 
+/* A name of a primitive or model among a node's parameters. */
+struct naming {
+    const char *at;
+    const cJSON *value;
+    int index;
+};
+
+/* Whether models name each other in a circle with this type and these parameters of the node. */
+static bool closes_circle(struct editor *editor, struct node *node, const struct node_type *type,
+                          const struct record *params, const char *at)
+{
+    const struct node_type *old_type = node->type;
+    const struct record old = node->params;
+
+    node->type = type;
+    node->params = *params;
+    const bool ok =
+        type->kind != KIND_MODEL || scene_check_models(editor->scene, node, at, editor->err);
+    node->type = old_type;
+    node->params = old;
+    return !ok;
+}
+
+/* `from`, of a node of this type, with another name among it; false and `err` where that cannot
+ * be. */
+static bool rename_declaring(struct editor *editor, struct node *node, const struct node_type *type,
+                             const struct record *from, const struct naming *naming,
+                             struct record *out)
+{
+    const struct scene *scene = editor->scene;
+    const struct resource_kind *kind =
+        resource_kind_named_by(from->type->params[naming->index].type);
+    struct record named;
+
+    record_copy(&named, from);
+    bool ok =
+        record_set(&named, naming->index, naming->value, naming->at, editor->err) &&
+        scene_check_name(scene, kind, named.values[naming->index].text, naming->at, editor->err);
+    if (ok) {
+        *out = converted(&named, node_params_type(scene, type, &named));
+        ok = scene_check_retyped(scene, node, out->type, naming->at, editor->err) &&
+             !closes_circle(editor, node, type, out, naming->at);
+        if (!ok) {
+            record_finish(out);
+        }
+    }
+    record_finish(&named);
+    return ok;
+}
+
+/* What the next operation names for the node, which gets this type; false: nothing. */
+static bool named_next(const struct editor *editor, const struct node *node,
+                       const struct node_type *type, struct naming *out)
+{
+    const char *op = edit_member_text(editor->next, "op");
+    const char *at = edit_member_text(editor->next, "at");
+    char values[PATH_TEXT_BYTES + 1];
+
+    node_values(values, node);
+    const size_t length = strlen(values);
+    if (!op || !at || strcmp(op, "set") != 0 || strncmp(at, values, length) != 0 ||
+        at[length] != '/') {
+        return false;
+    }
+    out->at = at;
+    out->value = cJSON_GetObjectItemCaseSensitive(editor->next, "value");
+    out->index = record_type_find(&type->record, at + length + 1);
+    const struct resource_kind *kind =
+        out->index < 0 ? NULL : resource_kind_named_by(type->record.params[out->index].type);
+    return kind && kind->extends && cJSON_IsString(out->value);
+}
+
+/* Gives `changed` that name, if it can have it: a parameter may set what only the named one
+ * declares, and then neither this nor its inverse could be two steps. */
+static bool take_name(struct editor *editor, struct node *node, const struct node_type *type,
+                      struct record *changed, struct naming *out)
+{
+    struct editor trial = {.scene = editor->scene};
+    struct record named;
+
+    if (!named_next(editor, node, type, out) ||
+        !rename_declaring(&trial, node, type, changed, out, &named)) {
+        return false;
+    }
+    record_finish(changed);
+    *changed = named;
+    editor->next = editor->next->next;
+    return true;
+}
+
 bool edit_set_node_type(struct editor *editor, struct node *node, const char *at,
                         const cJSON *value)
 {
     char values[PATH_TEXT_BYTES + 1];
+    struct naming naming;
 
     if (!cJSON_IsString(value)) {
         return error_set(editor->err, ERROR_INVALID, at, "expected the name of a type");
@@ -86,7 +177,8 @@ bool edit_set_node_type(struct editor *editor, struct node *node, const char *at
         return node_type_unknown(value->valuestring, at, editor->err);
     }
     struct record changed = converted_params(editor->scene, &node->params, type);
-    if (!scene_check_retyped(editor->scene, node, changed.type, at, editor->err)) {
+    const bool named = take_name(editor, node, type, &changed, &naming);
+    if (!named && !scene_check_retyped(editor->scene, node, changed.type, at, editor->err)) {
         record_finish(&changed);
         return false;
     }
@@ -101,58 +193,22 @@ bool edit_set_node_type(struct editor *editor, struct node *node, const char *at
     change(editor, &node->params, changed, back, values);
     edit_undo_by(editor, edit_set_operation(at, cJSON_CreateString(node->type->record.name)));
     edit_did(editor, edit_set_operation(at, cJSON_CreateString(type->record.name)));
+    if (named) {
+        edit_did(editor, edit_set_operation(naming.at, record_get(&node->params, naming.index)));
+    }
     node->type = type;
     scene_count_user(editor->scene, node, 1);
     return true;
 }
 
-/* The node's parameters with another name among them; false and `err` where that cannot be. */
-static bool rename_declaring(struct editor *editor, const struct node *node, int index,
-                             const char *at, const cJSON *value, struct record *out)
-{
-    const struct scene *scene = editor->scene;
-    const struct resource_kind *kind =
-        resource_kind_named_by(node->params.type->params[index].type);
-    struct record named;
-
-    record_copy(&named, &node->params);
-    bool ok = record_set(&named, index, value, at, editor->err) &&
-              scene_check_name(scene, kind, named.values[index].text, at, editor->err);
-    if (ok) {
-        *out = converted(&named, node_params_type(scene, node->type, &named));
-        ok = scene_check_retyped(scene, node, out->type, at, editor->err);
-        if (!ok) {
-            record_finish(out);
-        }
-    }
-    record_finish(&named);
-    return ok;
-}
-
-/* Whether models name each other in a circle with these parameters of the node. */
-static bool closes_circle(struct editor *editor, struct node *node, const struct record *params,
-                          const char *at)
-{
-    const struct record old = node->params;
-
-    node->params = *params;
-    const bool ok =
-        node->type->kind != KIND_MODEL || scene_check_models(editor->scene, node, at, editor->err);
-    node->params = old;
-    return !ok;
-}
-
 bool edit_set_declaring(struct editor *editor, struct node *node, int index, const char *at,
                         const cJSON *value)
 {
+    const struct naming naming = {.at = at, .value = value, .index = index};
     struct record changed, back;
     char values[PATH_TEXT_BYTES + 1];
 
-    if (!rename_declaring(editor, node, index, at, value, &changed)) {
-        return false;
-    }
-    if (closes_circle(editor, node, &changed, at)) {
-        record_finish(&changed);
+    if (!rename_declaring(editor, node, node->type, &node->params, &naming, &changed)) {
         return false;
     }
     cJSON *old = record_get(&node->params, index);

@@ -13,6 +13,7 @@
 #include "protocol/limits.h"
 #include "tests/support/edits.h"
 #include "tests/support/json_text.h"
+#include "tests/support/random_scene.h"
 
 #define HEAD                                                                                       \
     "{'format':'fieldcast/1','primitives':{'rod':{'params':[{'name':'wide','type':'float'}]}},"
@@ -272,6 +273,158 @@ static void what_is_set_stays(void **state)
                  NULL, NULL);
 }
 
+/* A node whose primitive or model declares what a parameter sets. */
+static const char declaring[] =
+    "{'format':'fieldcast/1','primitives':{"
+    "'rod':{'params':[{'name':'radius','type':'float','range':[0,10]}]},"
+    "'bare':{}},'models':{"
+    "'inner':{'params':[{'name':'radius','type':'float','sets':'/nodes/core/params/radius',"
+    "'range':[0.1,9]}],'root':{'id':'core','type':'sphere'}},"
+    "'outer':{'params':[{'name':'r','type':'float','sets':'/nodes/body/params/radius',"
+    "'range':[0.1,5]},{'name':'s','type':'float','sets':'/nodes/shell/params/radius',"
+    "'range':[0.1,5]}],'root':{'id':'top','type':'union','children':["
+    "{'id':'body','type':'field','params':{'primitive':'rod','radius':0.3}},"
+    "{'id':'shell','type':'model','params':{'model':'inner','radius':0.7}}]}}},"
+    "'root':{'id':'root','type':'union','children':["
+    "{'id':'a','type':'model','params':{'model':'outer','r':2}}]}}";
+
+static int set_up_declaring(void **state)
+{
+    (void)state;
+    scene = json_text_scene(declaring, NULL);
+    return scene ? 0 : -1;
+}
+
+#define SET(place, value) "{'op':'set','at':'/nodes/" place "','value':" value "}"
+#define BODY_BACK                                                                                  \
+    SET("body/type", "'field'")                                                                    \
+    "," SET("body/params/primitive", "'rod'") "," SET("body/params/radius", "0.3")
+#define SHELL_BACK                                                                                 \
+    SET("shell/type", "'model'")                                                                   \
+    "," SET("shell/params/model", "'inner'") "," SET("shell/params/radius", "0.7")
+
+static void types_that_name_come_back(void **state)
+{
+    (void)state;
+    edits_assert(scene, "[" SET("body/type", "'sphere'") "]", NULL, "[" BODY_BACK "]");
+    edits_assert(scene, "[" SET("shell/type", "'sphere'") "]", NULL, "[" SHELL_BACK "]");
+    edits_assert_fails(scene,
+                       "[" SET("body/type", "'sphere'") "," SET(
+                           "shell/type", "'sphere'") ","
+                                                     "{'op':'remove','at':'/nodes/nope'}]",
+                       ERROR_NOT_FOUND, "/nodes/nope", "there is no node \"nope\"");
+    edits_assert(scene,
+                 "[" SET("body/type", "'sphere'") "," BODY_BACK "," SET(
+                     "shell/type", "'sphere'") "," SHELL_BACK "," SET("body/type", "'sphere'") "]",
+                 NULL, NULL);
+}
+
+static void types_with_names_that_do_not_serve(void **state)
+{
+    (void)state;
+    edits_apply(scene, "[" SET("body/type", "'sphere'") "," SET("shell/type", "'sphere'") "]");
+    static const struct {
+        const char *node, *type, *naming;
+    } rows[] = {
+        {"body", "field", SET("body/params/primitive", "'bare'")},
+        {"body", "field", SET("body/params/primitive", "'none'")},
+        {"body", "field", SET("body/params/primitive", "null")},
+        {"body", "field", SET("body/params/code", "'rod'")},
+        {"body", "field", SET("shell/params/primitive", "'rod'")},
+        {"shell", "model", SET("shell/params/model", "'outer'")},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char edit[512], place[64], message[128];
+        const bool shell = strcmp(rows[i].node, "shell") == 0;
+        snprintf(edit, sizeof edit, "[{'op':'set','at':'/nodes/%s/type','value':'%s'},%s]",
+                 rows[i].node, rows[i].type, rows[i].naming);
+        snprintf(place, sizeof place, "/nodes/%s/type", rows[i].node);
+        snprintf(message, sizeof message,
+                 "the parameter \"%s\" of /models/outer sets /nodes/%s/params/radius",
+                 shell ? "s" : "r", rows[i].node);
+        edits_assert_fails(scene, edit, ERROR_CONFLICT, place, message);
+    }
+}
+
+/* Undo leaves out what no longer applies: nothing here. */
+static void types_that_name_are_undone(void **state)
+{
+    (void)state;
+    static const char *const edits[] = {"[" SET("body/type", "'sphere'") "]",
+                                        "[" SET("shell/type", "'sphere'") "]"};
+    char *before = scene_print(scene, false);
+
+    for (size_t i = 0; i < sizeof edits / sizeof edits[0]; i++) {
+        struct history *history = history_create();
+        cJSON *ops = edits_parse(edits[i]), *inverse = NULL, *applied = NULL;
+        assert_true(edit_apply(scene, ops, &applied, &inverse, NULL));
+        history_record(history, &(struct history_entry){.kind = HISTORY_EDIT,
+                                                        .author = "a",
+                                                        .applied = applied,
+                                                        .inverse = inverse});
+        for (int turn = 0; turn < 3; turn++) {
+            assert_true(history_undo(history, scene, "a", NULL, NULL));
+            char *after = scene_print(scene, false);
+            assert_string_equal(after, before);
+            free(after);
+            assert_true(history_redo(history, scene, "a", NULL, NULL));
+        }
+        assert_true(history_undo(history, scene, "a", NULL, NULL));
+        cJSON_Delete(ops);
+        cJSON_Delete(applied);
+        history_destroy(history);
+    }
+    free(before);
+}
+
+/* Whatever edits of these do together, their inverse takes back; what is refused leaves nothing. */
+static void mixed_edits_come_back(void **state)
+{
+    (void)state;
+    static const char *const ops[] = {
+        SET("body/type", "'sphere'"),
+        SET("body/type", "'field'"),
+        SET("body/type", "'model'"),
+        SET("body/params/primitive", "'rod'"),
+        SET("body/params/primitive", "'bare'"),
+        SET("body/params/model", "'inner'"),
+        SET("body/params/radius", "0.4"),
+        SET("shell/type", "'field'"),
+        SET("shell/type", "'model'"),
+        SET("shell/params/model", "'inner'"),
+        SET("shell/params/model", "'outer'"),
+        SET("shell/params/primitive", "'rod'"),
+        "{'op':'set','at':'/models/outer/params','value':[]}",
+        "{'op':'set','at':'/primitives/rod/params','value':[]}",
+        "{'op':'remove','at':'/nodes/nope'}",
+    };
+    struct random random = {1};
+    int applied = 0;
+
+    for (int i = 0; i < 4000; i++) {
+        char text[1024] = "[", *before = scene_print(scene, false);
+        const int count = 1 + (int)random_below(&random, 5);
+        for (int k = 0; k < count; k++) {
+            const size_t used = strlen(text),
+                         which = random_below(&random, sizeof ops / sizeof *ops);
+            snprintf(text + used, sizeof text - used, "%s%s", ops[which],
+                     k + 1 < count ? "," : "]");
+        }
+        cJSON *edit = edits_parse(text), *inverse = NULL;
+        if (edit_apply(scene, edit, NULL, &inverse, NULL)) {
+            assert_true(edit_apply(scene, inverse, NULL, NULL, NULL));
+            cJSON_Delete(inverse);
+            applied++;
+        }
+        char *after = scene_print(scene, false);
+        assert_string_equal(after, before);
+        free(after);
+        free(before);
+        cJSON_Delete(edit);
+    }
+    assert_true(applied > 400);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -282,6 +435,11 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_range_narrows, set_up, tear_down),
         cmocka_unit_test_setup_teardown(wrong_rows, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_is_set_stays, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(types_that_name_come_back, set_up_declaring, tear_down),
+        cmocka_unit_test_setup_teardown(types_with_names_that_do_not_serve, set_up_declaring,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(types_that_name_are_undone, set_up_declaring, tear_down),
+        cmocka_unit_test_setup_teardown(mixed_edits_come_back, set_up_declaring, tear_down),
     };
 
     return cmocka_run_group_tests_name("parameters of models", tests, NULL, NULL);
