@@ -61,29 +61,40 @@ static uint16_t function_of(const struct equation *equation, struct equation *ou
     return keep_needed(out, add_root(out));
 }
 
-/* The next place for this node's number; 0: it has none. */
-static int next_place(const struct equation *equation, size_t index, int *next)
+/* The places of letters and numbers, by node; 0: none. Each letter has one: room is kept for them,
+ * whatever numbers come before. Returns how many numbers the code reads. */
+static int give_places(const struct equation *function, int out[LIMIT_EQUATION_NODES + 1])
 {
-    const uint8_t op = equation->nodes[index].op;
-    const bool is_number = op == EQUATION_LETTER || op == EQUATION_NUMBER;
+    int next = EQUATION_FORM_NUMBERS, room = 4 * EQUATION_VECTORS - EQUATION_FORM_NUMBERS;
 
-    return is_number && *next < 4 * EQUATION_VECTORS ? (*next)++ : 0;
+    _Static_assert(EQUATION_FORM_NUMBERS + EQUATION_LETTERS <= 4 * EQUATION_VECTORS,
+                   "all letters have places");
+    for (size_t i = 0; i < function->count; i++) {
+        room -= function->nodes[i].op == EQUATION_LETTER;
+    }
+    for (size_t i = 0; i < function->count; i++) {
+        const bool letter = function->nodes[i].op == EQUATION_LETTER;
+        const bool number = function->nodes[i].op == EQUATION_NUMBER && room > 0;
+        room -= number;
+        out[i] = letter || number ? next++ : 0;
+    }
+    return next;
 }
 
 int equation_code_numbers(const struct equation *equation, const double form[EQUATION_FORM_NUMBERS],
                           const double *letters, double out[4 * EQUATION_VECTORS])
 {
     struct equation function;
-    int count = EQUATION_FORM_NUMBERS;
+    int places[LIMIT_EQUATION_NODES + 1];
 
     memset(out, 0, 4 * EQUATION_VECTORS * sizeof *out);
     memcpy(out, form, EQUATION_FORM_NUMBERS * sizeof *out);
     function_of(equation, &function);
+    const int count = give_places(&function, places);
     for (size_t i = 0; i < function.count; i++) {
         const struct equation_node *node = &function.nodes[i];
-        const int place = next_place(&function, i, &count);
-        if (place > 0) {
-            out[place] = node->op == EQUATION_LETTER ? letters[node->which] : node->value;
+        if (places[i] > 0) {
+            out[places[i]] = node->op == EQUATION_LETTER ? letters[node->which] : node->value;
         }
     }
     return (count + 3) / 4;
@@ -247,13 +258,12 @@ static char *write(const struct equation *equation, const struct equation_form *
     struct equation function;
     char *text = NULL;
     size_t length = 0;
-    int next = EQUATION_FORM_NUMBERS;
     const uint16_t root = function_of(equation, &function);
     struct equation_writer w = {
         .equation = &function, .letters = letters, .out = open_memstream(&text, &length)};
 
-    for (size_t i = 0; form && i < function.count; i++) {
-        w.places[i] = next_place(&function, i, &next);
+    if (form) {
+        give_places(&function, w.places);
     }
     write_functions(&w);
     write_function(&w, root);

@@ -46,8 +46,8 @@ double equation_unsteady(double extent);
 
 /* Numbers that the code of a distance reads, four in each vec4: lengths of the clip's box, the
  * ball's radius, the thickness, then letters and numbers of the equation, in the order of its
- * nodes. So equations that differ in numbers alone have one text. Numbers without a place, because
- * these are too many, stay in it. */
+ * nodes. So equations that differ in numbers alone have one text. All letters have a place. Numbers
+ * without one, because these are too many, stay in it. */
 enum { EQUATION_VECTORS = 16, EQUATION_FORM_NUMBERS = 5 };
 
 /* `form`: the first of them; `letters`: of equation_letters. Returns how many vec4s. */

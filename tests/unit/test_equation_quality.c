@@ -6,10 +6,12 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
+#include "renderer/code/equation_code.h"
 #include "renderer/field/field_quality.h"
 #include "tests/support/json_text.h"
 
@@ -109,6 +111,51 @@ static void a_pole_has_its_place(void **state)
     assert_int_equal(pole.kind, QUALITY_POLE);
     assert_true(fabs(pole.at[0] - 0.5) < 1e-6);
     assert_int_equal(outside.kind, QUALITY_SAFE);
+}
+
+/* Whether the code of this equation reads the value of each of its letters. */
+static void assert_letters_are_read(const char *text, int letters)
+{
+    const double form[EQUATION_FORM_NUMBERS] = {0};
+    double values[EQUATION_LETTERS], out[4 * EQUATION_VECTORS];
+    struct equation_errors errors;
+    struct equation *equation = equation_read(text, equation_letters, &errors);
+
+    assert_non_null(equation);
+    for (int i = 0; i < EQUATION_LETTERS; i++) {
+        values[i] = 1000 + i;
+    }
+    assert_int_equal(equation_code_numbers(equation, form, values, out), EQUATION_VECTORS);
+    char *code = equation_code(equation, (struct equation_form){.ball = true});
+    for (int i = 0; i < 4 * EQUATION_VECTORS; i++) {
+        char place[32];
+        snprintf(place, sizeof place, " = v%d.%c;", i / 4, "xyzw"[i % 4]);
+        letters -= out[i] >= 1000 && strstr(code, place);
+    }
+    assert_int_equal(letters, 0);
+    free(code);
+    free(equation);
+}
+
+/* The code reads 59 letters and numbers; further numbers are written into it. */
+static void letters_are_read_behind_many_numbers(void **state)
+{
+    (void)state;
+    static const char begins[] = "'equation': '";
+    char text[600] = "'equation': 'sin(3*x)";
+
+    for (int i = 1; i <= 60; i++) {
+        snprintf(text + strlen(text), sizeof text - strlen(text), "+.%02d", i);
+    }
+    const size_t sum = strlen(text);
+    snprintf(text + sum, sizeof text - sum, "= a");
+    assert_letters_are_read(text + sizeof begins - 1, 1);
+    snprintf(text + sum, sizeof text - sum, "= a+b+c+d+f+g+h+k+m+n+p+q+r+w");
+    assert_letters_are_read(text + sizeof begins - 1, EQUATION_LETTERS);
+    snprintf(text + sum, sizeof text - sum, "= a', 'a': 18.3");
+    const struct equation_quality quality = judge(text);
+    assert_int_equal(quality.kind, QUALITY_SAFE);
+    assert_true(quality.rays > 0 && share(&quality) < 0.02);
 }
 
 /* --- documents --- */
@@ -216,6 +263,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_kind_is_told),
         cmocka_unit_test(a_pole_has_its_place),
+        cmocka_unit_test(letters_are_read_behind_many_numbers),
         cmocka_unit_test(every_node_of_a_document_is_judged),
         cmocka_unit_test(words_say_what_was_found),
         cmocka_unit_test(surfaces_tell_their_error),
