@@ -420,15 +420,21 @@ static uint16_t read_power(struct reader *r)
     return base;
 }
 
-static uint16_t read_unary(struct reader *r)
+/* One level further in, which its caller leaves by r->depth--; false: reading has ended. */
+static bool enter(struct reader *r)
 {
-    uint16_t value = 0;
-
     if (++r->depth > LIMIT_EQUATION_DEPTH && !r->ended) {
         r->ended = true;
         note(r, r->at, "nested deeper than %d levels (equation_depth)", LIMIT_EQUATION_DEPTH);
     }
-    if (r->ended) {
+    return !r->ended;
+}
+
+static uint16_t read_unary(struct reader *r)
+{
+    uint16_t value = 0;
+
+    if (!enter(r)) {
         value = 0;
     } else if (take(r, "-")) {
         value = add(r, (struct equation_node){.op = EQUATION_NEGATE, .args = {read_unary(r), 0}});
@@ -437,6 +443,15 @@ static uint16_t read_unary(struct reader *r)
     } else {
         value = read_power(r);
     }
+    r->depth--;
+    return value;
+}
+
+/* A factor without a sign before it. */
+static uint16_t read_factor(struct reader *r)
+{
+    const uint16_t value = enter(r) ? read_power(r) : 0;
+
     r->depth--;
     return value;
 }
@@ -481,7 +496,7 @@ static uint16_t read_term(struct reader *r)
         } else if (take(r, "/")) {
             value = add_two(r, EQUATION_DIVIDE, value, read_unary(r));
         } else if (is_beside(r, begin)) {
-            value = add_two(r, EQUATION_MULTIPLY, value, read_power(r));
+            value = add_two(r, EQUATION_MULTIPLY, value, read_factor(r));
         } else {
             break;
         }

@@ -40,6 +40,7 @@ const SURFACES = [
     ['a point that cancels', ['s-s', 't/t', '(s+t)^2-s^2-2s*t-t^2'], '', /make a point, not a surface/],
     ['a curve by an identity', ['cos(s+t)', 'sin(s+t)', 'cos(2s+2t)'], '', /make a curve, not a surface/],
     ['a thousand parentheses', nest(1000, '(', 's', ')'), '/x', /nested deeper than 64 levels \(equation_depth\)/],
+    ['five thousand products', nest(5000, '2(', 's', ')'), '/x', /nested deeper than 64 levels \(equation_depth\)/],
     ['four thousand signs', nest(4000, '-', 's'), '/x', /nested deeper than 64 levels \(equation_depth\)/],
     ['a hundred sines', nest(100, 'sin(', 's', ')'), '/x', /nested deeper than 64 levels \(equation_depth\)/],
     ['squares of squares by definitions', chain('*'), '/x', /\(equation_nodes\), or 16384 with all definitions written out \(equation_weight\)/],
@@ -78,6 +79,7 @@ const TEXTS = [
     ['a division by 0', 'x = 1/0', 1, /a division by 0/],
     ['10^1000', 'x = 10^1000', 8, /exponent 1000; the limit is 64 \(equation_exponent\)/],
     ['deep nesting', nest(1000, '(', 'x', ')'), 65, /nested deeper than 64 levels \(equation_depth\)/],
+    ['deep products', nest(1000, '2(', 'x', ')'), 129, /nested deeper than 64 levels \(equation_depth\)/],
     ['nothing varies', '1 = 2', 1, /holds everywhere or nowhere/],
     ['two relations', 'x < y < z', 7, /./],
     ['an undefined letter', 'x + j = 1', 5, /"j" is no name/],
@@ -201,5 +203,5 @@ test('a surface that takes too long: frames come until it is ended by its limit'
 });
 
 test('none was left out', () => {
-    assert.equal(SURFACES.length + PROOFS.length + TEXTS.length, 52);
+    assert.equal(SURFACES.length + PROOFS.length + TEXTS.length, 54);
 });

@@ -401,6 +401,9 @@ static void limits_hold_on_both_sides(void **state)
         int most;
     } rows[] = {
         {"", "(", "x", LIMIT_EQUATION_DEPTH - 1}, /* closed below */
+        {"", "2(", "x", LIMIT_EQUATION_DEPTH - 1},
+        {"", "x sin(", "x", LIMIT_EQUATION_DEPTH - 1},
+        {"", "(x)(", "x", LIMIT_EQUATION_DEPTH - 1},
         {"", "-", "x", LIMIT_EQUATION_DEPTH - 1},
         {"", "\u221a", "x", LIMIT_EQUATION_DEPTH - 1},
         {"", "k# := x + #;", "x", LIMIT_EQUATION_DEFINITIONS},
@@ -409,7 +412,7 @@ static void limits_hold_on_both_sides(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         for (int over = 0; over < 2; over++) {
-            const bool opens = strcmp(rows[i].part, "(") == 0;
+            const bool opens = rows[i].part[strlen(rows[i].part) - 1] == '(';
             char *text = repeated(rows[i].head, rows[i].part, rows[i].most + over, rows[i].tail);
             char *closed = repeated(text, ")", opens ? rows[i].most + over : 0, "");
             if (is_read(closed) != !over) {
