@@ -23,7 +23,7 @@ bool edit_apply_some(struct scene *scene, const cJSON *ops, cJSON **out_applied,
                      cJSON **out_inverse, struct error *err);
 
 /* An estimate of the work of applying `ops`: operations, JSON values that they bring, and nodes
- * that they remove, move or change. Counts little further than `most`. */
+ * that they remove, move, change or look at. Counts little further than `most`. */
 size_t edit_weight(const struct scene *scene, const cJSON *ops, size_t most);
 
 /* Undo and redo of one scene, a pair of stacks of steps per author. A redo is built when its undo

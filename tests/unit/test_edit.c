@@ -317,6 +317,49 @@ static void weight_counts_what_is_moved(void **state)
                      3 + 3 + 3);
 }
 
+#define BRING(id, into, type)                                                                      \
+    "{'op':'insert','into':'" into "','value':{'id':'" id "','type':'group','children':["          \
+    "{'type':'" type "'}]}}"
+#define MOVE(id, into) "{'op':'move','at':'/nodes/" id "','into':'/nodes/" into "'}"
+
+/* An instance that comes into a model is followed through all models. */
+static void weight_counts_instances_in_models(void **state)
+{
+    (void)state;
+    edits_apply(scene, "[{'op':'insert','into':'/models','name':'pair','value':"
+                       "{'id':'pair-root','type':'union','children':[{'type':'sphere'}]}},"
+                       "{'op':'insert','into':'/models','name':'one','value':{'type':'box'}},"
+                       "{'op':'insert','into':'/nodes/root','value':"
+                       "{'id':'it','type':'model','params':{'model':'one'}}}]");
+    const size_t all = scene->node_count;
+    const struct {
+        const char *ops;
+        size_t own; /* without what is followed */
+        size_t times;
+    } rows[] = {
+        {"[" BRING("g", "/nodes/pair-root", "sphere") "]", 7, 0},
+        {"[" BRING("g", "/nodes/root", "model") "]", 7, 0},
+        {"[" BRING("g", "/nodes/pair-root", "model") "]", 7, 1},
+        {"[{'op':'insert','into':'/models','name':'m','value':{'type':'model'}}]", 3, 1},
+        {"[" MOVE("it", "root") "]", 2, 0},
+        {"[" MOVE("it", "pair-root") "]", 2, 1},
+        {"[" MOVE("neck", "pair-root") "]", 4, 0},
+        {"[" MOVE("it", "neck") "," MOVE("neck", "pair-root") "]", 6, 1},
+        {"[" BRING("g", "/nodes/pair-root", "sphere") "," MOVE("it", "g") "]", 9, 1},
+        {"[" BRING("g", "/nodes/root", "model") "," MOVE("g", "pair-root") "]", 8, 1},
+        {"[{'op':'set','at':'/nodes/body/params/model','value':'one'}," MOVE("body",
+                                                                             "pair-root") "]",
+         4, 2},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const size_t weight = weight_of(rows[i].ops, 999);
+        if (weight != rows[i].own + rows[i].times * all) {
+            fail_msg("row %zu: %zu instead of %zu and %zu times %zu", i, weight, rows[i].own,
+                     rows[i].times, all);
+        }
+    }
+}
+
 static void weight_stops_at_most(void **state)
 {
     (void)state;
@@ -342,6 +385,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(counts_hold_in_edits, set_up, tear_down),
         cmocka_unit_test_setup_teardown(weight_of_one_operation, set_up, tear_down),
         cmocka_unit_test_setup_teardown(weight_counts_what_is_moved, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(weight_counts_instances_in_models, set_up, tear_down),
         cmocka_unit_test_setup_teardown(weight_stops_at_most, set_up, tear_down),
     };
 
