@@ -35,7 +35,7 @@ enum { ORDERS = sizeof orders / sizeof orders[0] };
 
 static void random_monomial(exponents out)
 {
-    memset(out, 0, sizeof(exponents));
+    memset(out, 0, LIMIT_GROEBNER_LETTERS * sizeof *out);
     for (int i = 0; i < LETTERS; i++) {
         out[i] = below(3) ? below(6) : 0;
     }
