@@ -237,21 +237,35 @@ static bool learn(struct job *job, const struct tile *tile, int64_t took_us, int
                           (int)(cpu_us / 1000), (int)(job->limit_us / 1000));
 }
 
-/* Nothing of the row was handed out yet. */
+/* Gives up the tile that was started last. */
+static void drop_last_tile(struct job *job)
+{
+    const int index = (job->started - 1) % TILES_IN_FLIGHT;
+    struct tile_in_flight *slot = &job->picture.slots[index];
+
+    if (slot->fence) {
+        draw_wait(job->renderer->draw, &job->picture, index, &job->error);
+    }
+    for (int i = 0; draw_picture_pauses(&job->picture) && i < FRAME_STAGES; i++) {
+        job->times.us[i] += (uint32_t)slot->stage_us[i]; /* it was spent all the same */
+    }
+    slot->samples = 0;
+    job->started--;
+}
+
+/* Nothing of the row was handed out yet. The last tile of the row before it may still be on its
+ * way. */
 static void begin_row_anew(struct job *job)
 {
-    for (int i = 0; i < TILES_IN_FLIGHT; i++) {
-        if (job->picture.slots[i].fence) {
-            draw_wait(job->renderer->draw, &job->picture, i, &job->error);
-        }
-        job->picture.slots[i].samples = 0;
+    const int top = job->region.y + job->row.y;
+
+    while (job->started > job->collected && last_slot(job)->tile.y == top) {
+        drop_last_tile(job);
     }
-    job->times = job_times(job); /* it was spent all the same */
-    for (int i = 0; i < AOV_COUNT; i++) {
+    for (int i = 0; i < AOV_COUNT && job->started == job->collected; i++) {
         free(job->rows[i]);
         job->rows[i] = NULL;
     }
-    job->started = job->collected = 0;
     begin_row(job, job->row.y);
 }
 

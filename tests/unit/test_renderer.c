@@ -558,6 +558,33 @@ static void the_engine_draws_while_compiling(void **state)
                           "'code':'float sdf(vec3 p) { return length(p) - 1.0; }'}}}]");
 }
 
+/* The first tile of the second row takes far too long, while the last one of the first row is still
+ * on its way. */
+static void rows_that_are_begun_again_leave_those_before(void **state)
+{
+    enum { FAR_TOO_LONG_US = 5000000 };
+
+    struct resident *resident = make_resident(document);
+    struct image before, again;
+
+    (void)state;
+    use_tiles(32);
+    before = draw(resident, &usual);
+    struct job *job = job_create(resident, &usual, NULL);
+    while (job->row.y == 0) {
+        assert_int_not_equal(job_step(job), JOB_ROWS);
+    }
+    assert_int_equal(job->row.x, 0);
+    assert_true(job->row.pace.doublings > 0);
+    job->sample = (struct watch){FAR_TOO_LONG_US, FAR_TOO_LONG_US};
+    again = finish_job(job);
+    assert_same(&before, &again);
+    use_tiles(0);
+    image_finish(&before);
+    image_finish(&again);
+    resident_destroy(resident);
+}
+
 static void cancelled_jobs_leave_no_trace(void **state)
 {
     struct resident *resident = make_resident(document);
@@ -897,6 +924,7 @@ int main(void)
         cmocka_unit_test(what_was_never_drawn),
         cmocka_unit_test(outputs_are_drawn_together),
         cmocka_unit_test(pictures_are_not_torn),
+        cmocka_unit_test(rows_that_are_begun_again_leave_those_before),
         cmocka_unit_test(cancelled_jobs_leave_no_trace),
         cmocka_unit_test(odd_sizes_are_drawn),
         cmocka_unit_test(tiles_are_no_larger_than_the_picture),
