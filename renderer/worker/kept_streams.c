@@ -7,6 +7,11 @@
 #include "protocol/limits.h"
 #include "protocol/memory.h"
 
+enum {
+    PIXEL_BYTES = 4,
+    LEAST_BYTES = 65536, /* of one without a picture: so there are not too many of them */
+};
+
 static void close_stream(struct kept_stream *stream)
 {
     stream_encoder_close(stream->encoder);
@@ -50,6 +55,27 @@ struct kept_stream *kept_streams_take(struct kept_streams *streams, const char *
         stream->name = memory_text(name);
     }
     return stream;
+}
+
+/* Nothing is kept of a larger picture, which no other is a difference from (delta.h). */
+static size_t bytes_of(int width, int height)
+{
+    const size_t pixels = (size_t)width * (size_t)height;
+
+    return LEAST_BYTES + (pixels <= LIMIT_DELTA_PIXELS ? PIXEL_BYTES * pixels : 0);
+}
+
+void kept_stream_begin(struct kept_stream *stream, int width, int height)
+{
+    const size_t bytes = bytes_of(width, height);
+
+    stream->bytes = bytes > stream->bytes ? bytes : stream->bytes;
+}
+
+void kept_stream_end(struct kept_stream *stream, uint32_t order, int width, int height)
+{
+    stream->order = order;
+    stream->bytes = bytes_of(width, height);
 }
 
 void kept_streams_give_back(struct kept_streams *streams, struct kept_stream *stream)

@@ -22,6 +22,10 @@ void kept_streams_finish(struct kept_streams *streams);
 /* Opens it where it is not kept; the class is one about nothing. */
 struct kept_stream *kept_streams_take(struct kept_streams *streams, const char *name,
                                       const struct stream_class *class);
+/* A picture of this size is begun. Where it is given up, what was held before it still is. */
+void kept_stream_begin(struct kept_stream *stream, int width, int height);
+/* That of the order is the last one now. */
+void kept_stream_end(struct kept_stream *stream, uint32_t order, int width, int height);
 /* One of that name that came back before is closed, and so are the oldest. NULL: nothing. */
 void kept_streams_give_back(struct kept_streams *streams, struct kept_stream *stream);
 

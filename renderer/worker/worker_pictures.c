@@ -53,6 +53,9 @@ static bool begin_encoding(struct worker *w, struct worker_job *job, struct erro
         job->width = shapes[i].width ? shapes[i].width : job->width;
         job->height = shapes[i].width ? shapes[i].height : job->height;
     }
+    if (job->kept) {
+        kept_stream_begin(job->kept, job->width, job->height);
+    }
     if (job->kept && (job->base == 0 || job->kept->order != job->base)) {
         stream_encoder_ask_key(job->stream);
     }
@@ -70,7 +73,6 @@ static void open_stream(struct worker *w, const struct render_request *request,
     if (*name) {
         job->kept =
             kept_streams_take(&w->streams, name, depths ? &depths_delta_stream : &delta_stream);
-        job->kept->bytes = (size_t)render_request_pixels(request) * sizeof(uint32_t);
         job->stream = job->kept->encoder;
         job->base = (uint32_t)record_number(&request->delivery, "base");
         return;
@@ -349,7 +351,7 @@ static bool answer(struct worker *w, struct worker_job *job)
     struct error err = job->encoding->error;
 
     if (job->kept && job->encoding->ok) {
-        job->kept->order = job->number;
+        kept_stream_end(job->kept, job->number, job->width, job->height);
     }
     if (job->answered) {
         return false;

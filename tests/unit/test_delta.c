@@ -517,6 +517,57 @@ static void streams_are_kept_by_name_as_far_as_there_is_room(void **state)
     kept_streams_finish(&streams);
 }
 
+static void give_back(struct kept_streams *streams, const char *name, int order, int side)
+{
+    struct kept_stream *stream = kept_streams_take(streams, name, &delta_stream);
+
+    kept_stream_begin(stream, side, side);
+    kept_stream_end(stream, (uint32_t)order, side, side);
+    kept_streams_give_back(streams, stream);
+}
+
+static uint32_t order_of(struct kept_streams *streams, const char *name)
+{
+    struct kept_stream *stream = kept_streams_take(streams, name, &delta_stream);
+    const uint32_t order = stream->order;
+
+    kept_streams_give_back(streams, stream);
+    return order;
+}
+
+/* Of a picture that is too large nothing is kept, but many small ones take room too. */
+static void streams_count_as_much_as_they_hold(void **state)
+{
+    enum { LARGE = 8192, NOT_TOO_LARGE = 2048, MANY = 3000 };
+
+    struct kept_streams streams = {0};
+    char name[16];
+
+    (void)state;
+    give_back(&streams, "a", 5, 300);
+    give_back(&streams, "large", 6, LARGE);
+    assert_int_equal(order_of(&streams, "a"), 5);
+    assert_int_equal(order_of(&streams, "large"), 6);
+    for (int i = 0; i < LIMIT_DELTAS_BYTES / (4 * NOT_TOO_LARGE * NOT_TOO_LARGE); i++) {
+        snprintf(name, sizeof name, "%d", i);
+        give_back(&streams, name, 7, NOT_TOO_LARGE);
+    }
+    assert_int_equal(order_of(&streams, "a"), 0);
+    /* One that was given up may have left something. */
+    struct kept_stream *given_up = kept_streams_take(&streams, "c", &delta_stream);
+    kept_stream_begin(given_up, NOT_TOO_LARGE, NOT_TOO_LARGE);
+    kept_stream_begin(given_up, LARGE, LARGE);
+    assert_true(given_up->bytes > 4 * NOT_TOO_LARGE * NOT_TOO_LARGE);
+    kept_streams_give_back(&streams, given_up);
+    give_back(&streams, "b", 8, 1);
+    for (int i = 0; i < MANY; i++) {
+        snprintf(name, sizeof name, "%d", i);
+        give_back(&streams, name, 9, 1);
+    }
+    assert_int_equal(order_of(&streams, "b"), 0);
+    kept_streams_finish(&streams);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -526,6 +577,7 @@ int main(void)
         cmocka_unit_test(nothing_new_is_two_bytes),
         cmocka_unit_test(what_a_line_loses_spoils_nothing),
         cmocka_unit_test(streams_are_kept_by_name_as_far_as_there_is_room),
+        cmocka_unit_test(streams_count_as_much_as_they_hold),
     };
 
     return cmocka_run_group_tests_name("differences", tests, NULL, NULL);

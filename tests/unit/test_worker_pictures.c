@@ -103,6 +103,18 @@ static void streams_go_on_from_what_the_client_has(void **state)
     assert_true(peer.packet.frame.whole_bytes == 0);
 }
 
+/* A picture counts as the part of it that is asked for. */
+static void streams_are_kept_beside_parts_of_large_pictures(void **state)
+{
+    (void)state;
+    peer_send_scene("s", 1);
+    check_streamed(1, "a", 0, true, "'exact':true");
+    peer_send_render(2, 0, 8192, 8192,
+                     ",'region':[4000,4000,16,16],'delivery':{'stream':'b','exact':true}");
+    peer_expect(TO_FRONT_FRAME);
+    check_streamed(3, "a", 1, false, "'exact':true");
+}
+
 static void check_failed(const char *more, enum error_kind kind, const char *place)
 {
     char members[512];
@@ -151,6 +163,8 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(outputs_are_drawn, peer_start, peer_stop),
         cmocka_unit_test_setup_teardown(what_is_asked, peer_start, peer_stop),
         cmocka_unit_test_setup_teardown(streams_go_on_from_what_the_client_has, peer_start,
+                                        peer_stop),
+        cmocka_unit_test_setup_teardown(streams_are_kept_beside_parts_of_large_pictures, peer_start,
                                         peer_stop),
         cmocka_unit_test_setup_teardown(impossible_requests_are_refused, peer_start, peer_stop),
     };
