@@ -345,6 +345,13 @@ void worker_step(struct worker *w, struct worker_job *job)
     }
 }
 
+/* Of rounds a client keeps the last one alone. It could put no other together with what it has; the
+ * next one is whole. */
+static bool is_sent(const struct worker_job *job)
+{
+    return !job->between || job->encoding->packet.key;
+}
+
 /* True when there is more to come. */
 static bool answer(struct worker *w, struct worker_job *job)
 {
@@ -358,7 +365,9 @@ static bool answer(struct worker *w, struct worker_job *job)
     }
     job->times.us[FRAME_ENCODE] = job->encoding->encode_us;
     if (job->encoding->ok) {
-        worker_send_frame(w, job);
+        if (is_sent(job)) {
+            worker_send_frame(w, job);
+        }
         if (!job->between || begin_encoding(w, job, &err)) {
             return job->between;
         }

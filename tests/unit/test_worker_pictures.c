@@ -103,6 +103,30 @@ static void streams_go_on_from_what_the_client_has(void **state)
     assert_true(peer.packet.frame.whole_bytes == 0);
 }
 
+/* A client keeps no round but the last one, so it could put none together. */
+static void rounds_are_whole(void **state)
+{
+    static const char more[] = ",'samples':4,'delivery':{'stream':'a','base':%d,'exact':true,%s}";
+    char members[256];
+    int rounds = 0;
+
+    (void)state;
+    peer_send_scene("s", 1);
+    snprintf(members, sizeof members, more, 0, "'in_rounds':false");
+    peer_send_render(1, 0, 320, 240, members);
+    peer_expect(TO_FRONT_FRAME);
+    snprintf(members, sizeof members, more, 1, "'in_rounds':true");
+    peer_send_render(2, 0, 320, 240, members);
+    do {
+        peer_expect(TO_FRONT_FRAME);
+        assert_int_equal(peer.packet.frame.job, 2);
+        assert_true(peer.packet.frame.key);
+        rounds++;
+    } while (peer.packet.frame.more);
+    assert_int_equal(peer.packet.frame.rounds.done, peer.packet.frame.rounds.count);
+    assert_true(rounds > 0);
+}
+
 /* A picture counts as the part of it that is asked for. */
 static void streams_are_kept_beside_parts_of_large_pictures(void **state)
 {
@@ -164,6 +188,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(what_is_asked, peer_start, peer_stop),
         cmocka_unit_test_setup_teardown(streams_go_on_from_what_the_client_has, peer_start,
                                         peer_stop),
+        cmocka_unit_test_setup_teardown(rounds_are_whole, peer_start, peer_stop),
         cmocka_unit_test_setup_teardown(streams_are_kept_beside_parts_of_large_pictures, peer_start,
                                         peer_stop),
         cmocka_unit_test_setup_teardown(impossible_requests_are_refused, peer_start, peer_stop),
