@@ -217,6 +217,11 @@ static void hand_rows_over(struct worker *w, struct worker_job *job)
                               job_take_rows(job->drawing, aov));
         }
     }
+}
+
+/* Tiles of it are done. A row of them may take longer than the front waits. */
+static void tell_progress(struct worker *w, struct worker_job *job)
+{
     if (now_us() - job->told_us > PROGRESS_US) {
         job->told_us = now_us();
         worker_send(w, &(struct packet){.kind = TO_FRONT_PROGRESS, .job = {job->number}});
@@ -324,7 +329,13 @@ void worker_step(struct worker *w, struct worker_job *job)
     if (job->begun_us == 0) {
         job->begun_us = now_us();
     }
-    switch (take_turn(w, job)) {
+    const uint64_t tiles = renderer_counters(w->renderer).tiles;
+    const enum job_state state = take_turn(w, job);
+
+    if (renderer_counters(w->renderer).tiles > tiles) {
+        tell_progress(w, job);
+    }
+    switch (state) {
     case JOB_WAITING:
     case JOB_RUNNING:
     case JOB_ROWS:

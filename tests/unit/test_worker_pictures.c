@@ -139,6 +139,23 @@ static void streams_are_kept_beside_parts_of_large_pictures(void **state)
     check_streamed(3, "a", 1, false, "'exact':true");
 }
 
+/* The front gives up what it hears nothing of. The picture is one row of tiles, which takes minutes
+ * of a processor. */
+static void long_rows_are_told_to_go_on(void **state)
+{
+    (void)state;
+    peer_send_example("heavy", 1, HEAVY_EXAMPLE);
+    peer_send_request(
+        "heavy", 1, 0,
+        "'width':16384,'height':16384,'region':[0,8192,16384,64],'level':'final',"
+        "'camera':{'position':[-2,1.9,6.6],'target':[0,0.42,0],'fov':32,'aperture':0.05}");
+    peer_expect(TO_FRONT_PROGRESS);
+    assert_int_equal(peer.packet.job.job, 1);
+    peer_ping(1);
+    assert_int_equal(peer.packet.pong.counters.pictures, 0);
+    peer_send_cancel(1);
+}
+
 static void check_failed(const char *more, enum error_kind kind, const char *place)
 {
     char members[512];
@@ -191,6 +208,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(rounds_are_whole, peer_start, peer_stop),
         cmocka_unit_test_setup_teardown(streams_are_kept_beside_parts_of_large_pictures, peer_start,
                                         peer_stop),
+        cmocka_unit_test_setup_teardown(long_rows_are_told_to_go_on, peer_start, peer_stop),
         cmocka_unit_test_setup_teardown(impossible_requests_are_refused, peer_start, peer_stop),
     };
 
