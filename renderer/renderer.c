@@ -281,19 +281,25 @@ void renderer_set_pace(struct renderer *renderer, double pace)
     program_cache_set_pace(renderer->programs, pace);
 }
 
-static bool is_named(void *data, const char *id)
+static bool is_wanted(void *data, const char *id)
 {
-    const struct resident *resident = ((const struct renderer *)data)->residents;
+    const struct renderer *renderer = data;
+    const struct resident *resident = renderer->residents;
 
     while (resident && !is_named_by(resident, id)) {
         resident = resident->next;
     }
-    return resident != NULL;
+    return resident || renderer->holds_assets;
+}
+
+void renderer_hold_assets(struct renderer *renderer, bool hold)
+{
+    renderer->holds_assets = hold;
 }
 
 void renderer_asset(struct renderer *renderer, const char *id, const void *bytes, size_t length)
 {
-    if (!assets_add(&renderer->assets, id, bytes, length, is_named, renderer)) {
+    if (!assets_add(&renderer->assets, id, bytes, length, is_wanted, renderer)) {
         return;
     }
     for (struct resident *resident = renderer->residents; resident; resident = resident->next) {

@@ -132,6 +132,8 @@ void renderer_set_pace(struct renderer *renderer, double pace);
 /* Adds a file that scenes name by its SHA-256. It is copied, and kept while a scene names it and
  * for some time after. Call it before the first such scene, or scenes that name it are reopened. */
 void renderer_asset(struct renderer *renderer, const char *id, const void *bytes, size_t length);
+/* While they are held, a new file takes the place of none: scenes may come that name them. */
+void renderer_hold_assets(struct renderer *renderer, bool hold);
 
 /* Whether the scene can be drawn, as far as that is known without a device: its code is read,
  * checked, bounded and run in C, and every limit of drawing holds. False and `err` with the place

@@ -23,6 +23,7 @@ struct renderer {
     struct draw *draw;
     struct environments *environments;
     struct asset *assets; /* a list */
+    bool holds_assets;    /* see renderer_hold_assets */
     struct pictures *pictures;
     struct snapshot *waiting; /* for a picture; a list */
     struct trials trials;

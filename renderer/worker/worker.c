@@ -48,8 +48,10 @@ static int timeout_of(const struct worker *w, const struct worker_job *job)
     return job || renderer_is_trying(w->renderer) ? 0 : is_compiling(w) ? COMPILE_POLL_MS : -1;
 }
 
+/* A document that waits to be read may name any file that came before it. */
 static void on_asset(struct worker *w, const struct packet *packet)
 {
+    renderer_hold_assets(w->renderer, w->documents != NULL);
     if (packet->payload) {
         renderer_asset(w->renderer, packet->asset.asset, packet->payload, packet->payload_length);
     }

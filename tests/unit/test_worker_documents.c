@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -197,6 +198,74 @@ static void packets_keep_their_order(void **state)
     free(document);
 }
 
+/* Of a colour, so that no two are the same. */
+static void send_panorama(const char *id, uint8_t red)
+{
+    uint8_t bytes[128];
+    const int head =
+        snprintf((char *)bytes, sizeof bytes, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n");
+    const uint8_t pixels[] = {red, 90, 90, 128, red, 90, 90, 128};
+
+    memcpy(bytes + head, pixels, sizeof pixels);
+    peer_send_packet(peer.fd, &(struct packet){.kind = TO_WORKER_ASSET,
+                                               .asset = {id},
+                                               .payload = bytes,
+                                               .payload_length = (size_t)head + sizeof pixels});
+}
+
+/* One that names this file. Caller frees. */
+static char *surrounded_document(const char *id)
+{
+    enum { HIDDEN = 400 }; /* so many nodes make it a large one */
+
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+
+    assert_non_null(out);
+    fprintf(out,
+            "{'format':'fieldcast/1','environment':{'type':'image','image':'%s'},"
+            "'root':{'id':'root','type':'union','children':[{'id':'ball','type':'sphere'}",
+            id);
+    for (int i = 0; i < HIDDEN; i++) {
+        fprintf(out, ",{'id':'n%d','type':'sphere','visible':false}", i);
+    }
+    fprintf(out, "]}}");
+    assert_int_equal(fclose(out), 0);
+    json_text_quote(text);
+    return text;
+}
+
+/* A file comes before the document that names it, and many come before the first one is read. */
+static void files_wait_for_documents(void **state)
+{
+    enum { SCENES = 9 };
+
+    char *large = large_document(false);
+
+    (void)state;
+    peer_send_document("large", 1, large);
+    for (int i = 0; i < SCENES; i++) {
+        char name[16], id[ASSET_ID_CHARACTERS + 1];
+
+        snprintf(name, sizeof name, "s%d", i);
+        snprintf(id, sizeof id, "%064x", i + 1);
+        send_panorama(id, (uint8_t)(20 * i));
+        char *text = surrounded_document(id);
+        peer_send_document(name, 1, text);
+        free(text);
+    }
+    for (int shown = 0; shown < SCENES + 1;) {
+        const int kind = peer_receive();
+
+        assert_int_not_equal(kind, TO_FRONT_WARNED);
+        assert_int_not_equal(kind, TO_FRONT_BROKEN);
+        assert_int_not_equal(kind, TO_FRONT_COUNT);
+        shown += kind == TO_FRONT_SHOWN;
+    }
+    free(large);
+}
+
 /* The end comes while one is read, another waits, and packets wait for both. */
 static void stop_while_reading(void **state)
 {
@@ -218,6 +287,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(large_edits, peer_start, peer_stop),
         cmocka_unit_test_setup_teardown(large_edits_in_order, peer_start, peer_stop),
         cmocka_unit_test_setup_teardown(packets_keep_their_order, peer_start, peer_stop),
+        cmocka_unit_test_setup_teardown(files_wait_for_documents, peer_start, peer_stop),
         cmocka_unit_test_setup_teardown(stop_while_reading, peer_start, peer_stop),
     };
 
