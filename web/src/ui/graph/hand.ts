@@ -94,14 +94,22 @@ function handOf(editor: Editor, element: HTMLElement, show: (shown: Shown | null
         holds: (): boolean => press !== null,
         carries: (): boolean => outcome !== null,
         down: ({ target, button, isPrimary, pointerId, clientX: x, clientY: y }: PointerEvent) => {
+            if (!isPrimary) {
+                return /* a second finger: the first one goes on */;
+            }
+            end();
             const { document } = editor.stores.document.getState();
             const { selection } = editor.stores.view.getState();
-            const able = button === 0 && isPrimary && target instanceof Element;
+            const able = button === 0 && target instanceof Element;
             const held = able && document ? heldAt(target, document, selection) : null;
             press = held && { held, x, y, pointer: pointerId };
         },
         move: (event: PointerEvent): void => {
             if (press === null || event.pointerId !== press.pointer) {
+                return;
+            }
+            if (event.buttons === 0) {
+                end() /* it was let go where nobody was told, outside of the panel */;
                 return;
             }
             const way = Math.hypot(event.clientX - press.x, event.clientY - press.y);
@@ -113,6 +121,9 @@ function handOf(editor: Editor, element: HTMLElement, show: (shown: Shown | null
         },
         up: (event: PointerEvent): void => {
             if (press !== null && event.pointerId === press.pointer) {
+                if (outcome !== null) {
+                    carry(press.held, event, press) /* others may have changed the scene */;
+                }
                 const done = outcome;
                 end();
                 if (done !== null) {
