@@ -115,6 +115,41 @@ test("1,000 random drags along axes and in planes give the move that was seen", 
     }
 });
 
+/* Four units above a floor, whose horizon is across the middle of the picture. */
+const LEVEL = projectionOf({ ...DEFAULT_CAMERA, position: [0, 4, 10], target: [0, 4, 0] }, SIZE);
+const onFloor = (from: Spot): Grip => ({
+    constraint: { motion: "move", axis: 1, plane: true },
+    pivot: [0, 0, 0],
+    frame: IDENTITY,
+    projection: LEVEL,
+    from,
+});
+const above = (spot: Spot, by: number): Spot => ({ x: spot.x, y: SIZE.height / 2 - by });
+
+test("a hand above the horizon of its plane brings nothing behind the camera, or out of sight", () => {
+    const middle = LEVEL.spotOf([0, 0, 0]) ?? { x: 0, y: 0 };
+    const grip = onFloor(middle);
+    for (const height of [-1e-3, 0, 1, 100]) {
+        expect(deltaTo(grip, above(middle, height))).toBeNull();
+    }
+    const far = deltaTo(grip, above(middle, -10));
+    expect(far?.motion === "move" && far.by[2]).toBeLessThan(-20);
+    const axis: Grip = { ...grip, constraint: { motion: "move", axis: 2, plane: false } };
+    expect(deltaTo(axis, above(middle, 100))).toBeNull();
+});
+
+test("a hand that begins above the horizon goes as if it had taken the pivot", () => {
+    const middle = LEVEL.spotOf([0, 0, 0]) ?? { x: 0, y: 0 };
+    const from = above(middle, 100);
+    const right = deltaTo(onFloor(from), { x: from.x + 50, y: from.y });
+    const wanted = deltaTo(onFloor(middle), { x: middle.x + 50, y: middle.y });
+    if (right?.motion !== "move" || wanted?.motion !== "move") {
+        throw new Error("no move");
+    }
+    close(right.by, wanted.by);
+    expect(right.by[0]).toBeGreaterThan(0.5);
+});
+
 test("1,000 random turns give the angle that was seen", () => {
     let seen = 0;
     for (let i = 0; i < 1000; i++) {
@@ -145,7 +180,7 @@ test("a hand that goes around three times turns by three turns", () => {
         const angle = (-degrees * Math.PI) / 180;
         const spot = { x: x + 80 * Math.cos(angle), y: y + 80 * Math.sin(angle) };
         const delta = deltaTo({ ...grip, from: { x: x + 80, y } }, spot, 0, turned);
-        turned = delta.motion === "turn" ? delta.angle : Number.NaN;
+        turned = delta?.motion === "turn" ? delta.angle : Number.NaN;
     }
     expect(turned).toBeCloseTo(6 * Math.PI, 1);
 });
@@ -157,16 +192,16 @@ test("steps: moves of 0.1, turns of 15 degrees, factors of 0.1", () => {
             const from = { x: grip.from.x + 40, y: grip.from.y - 60 };
             const to = { x: from.x + next() * 90, y: from.y - next() * 90 };
             const step = motion === "turn" ? Math.PI / 12 : 0.1;
-            const delta: Delta = deltaTo({ ...grip, from }, to, step);
+            const delta = deltaTo({ ...grip, from }, to, step);
             const amount =
-                delta.motion === "move"
+                delta?.motion === "move"
                     ? delta.by[1]
-                    : delta.motion === "turn"
+                    : delta?.motion === "turn"
                       ? delta.angle
-                      : delta.factors[1];
+                      : (delta?.factors[1] ?? Number.NaN);
             const steps = amount / step;
             expect(
-                delta.motion === "scale" && amount === 0.01 ? 0 : steps - Math.round(steps),
+                delta?.motion === "scale" && amount === 0.01 ? 0 : steps - Math.round(steps),
             ).toBeCloseTo(0, 6);
         }
     }

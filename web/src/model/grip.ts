@@ -6,6 +6,7 @@ import {
     add,
     cross,
     dot,
+    length,
     type Matrix,
     normalize,
     scale,
@@ -55,7 +56,7 @@ export function axisOf(frame: Matrix, axis: Axis): Vector {
     return [frame[0][axis], frame[1][axis], frame[2][axis]];
 }
 
-/* The normal of the plane, or the axis of the turn. */
+/* The normal of the plane, the way of the line, or the axis of the turn. */
 export function normalOf({ constraint, frame, projection, pivot }: Grip): Vector {
     return constraint.axis === null
         ? scale(projection.towards(pivot), -1)
@@ -64,19 +65,40 @@ export function normalOf({ constraint, frame, projection, pivot }: Grip): Vector
 
 /* --- moving --- */
 
-function moveAlong(grip: Grip, axis: Vector, to: Spot): number {
-    const { projection, pivot, from } = grip;
-    const start = alongLine(projection.rayAt(from), pivot, axis);
-    const end = alongLine(projection.rayAt(to), pivot, axis);
-    return start === null || end === null ? 0 : end - start;
+/* Nothing is brought farther than so many heights of the picture, as it spans them at the pivot: near
+ * the horizon of a plane, or where an axis vanishes, a pixel is as far as all before. */
+const FARTHEST = 100;
+
+/* Along one line. */
+const isSingle = ({ axis, plane }: Constraint): boolean => axis !== null && !plane;
+
+/* The point of the constraint's line or plane under a spot; null: none is before the camera. */
+function metUnder(grip: Grip, spot: Spot): Vector | null {
+    const { constraint, projection, pivot } = grip;
+    const ray = projection.rayAt(spot);
+    const normal = normalOf(grip);
+    const along = isSingle(constraint) ? alongLine(ray, pivot, normal) : null;
+    const onLine = along === null ? null : add(pivot, scale(normal, along));
+    const point = isSingle(constraint) ? onLine : onPlane(ray, pivot, normal);
+    return point && projection.spotOf(point) ? point : null;
 }
 
-function moveWithin(grip: Grip, to: Spot): Vector {
+/* The hand's way within its constraint; null: it is where that is not seen. A hand that begins there
+ * goes as if it had taken the pivot. */
+function wayOf(grip: Grip, to: Spot): Vector | null {
     const { projection, pivot, from } = grip;
-    const normal = normalOf(grip);
-    const start = onPlane(projection.rayAt(from), pivot, normal);
-    const end = onPlane(projection.rayAt(to), pivot, normal);
-    return start === null || end === null ? [0, 0, 0] : subtract(end, start);
+    const start = metUnder(grip, from);
+    const middle = projection.spotOf(pivot);
+    if (middle === null) {
+        return null;
+    }
+    const end = metUnder(
+        grip,
+        start ? to : { x: middle.x + to.x - from.x, y: middle.y + to.y - from.y },
+    );
+    const by = end && subtract(end, start ?? pivot);
+    const most = FARTHEST * projection.unitsAt(pivot) * projection.size.height;
+    return by && length(by) <= most ? by : null;
 }
 
 /* A vector of the world with its parts along the frame's axes rounded to `step`. */
@@ -90,15 +112,17 @@ function snapped(frame: Matrix, by: Vector, step: number): Vector {
     );
 }
 
-function move(grip: Grip, to: Spot, step: number): Delta {
+function move(grip: Grip, to: Spot, step: number): Delta | null {
     const { constraint, frame } = grip;
-    if (constraint.axis !== null && !constraint.plane) {
-        const along = axisOf(frame, constraint.axis);
-        const far = moveAlong(grip, along, to);
-        return { motion: "move", by: scale(along, step > 0 ? snap(far, step) : far) };
+    const by = wayOf(grip, to);
+    if (by === null || step === 0) {
+        return by && { motion: "move", by };
     }
-    const by = moveWithin(grip, to);
-    return { motion: "move", by: step > 0 ? snapped(frame, by, step) : by };
+    if (isSingle(constraint)) {
+        const along = normalOf(grip);
+        return { motion: "move", by: scale(along, snap(dot(by, along), step)) };
+    }
+    return { motion: "move", by: snapped(frame, by, step) };
 }
 
 /* --- turning --- */
@@ -146,11 +170,17 @@ export function unwrapped(angle: number, before: number): number {
 const DOUBLING = 100;
 const LEAST_FACTOR = 0.01;
 
-function factorAlong(grip: Grip, axis: Vector, to: Spot): number {
-    const { projection, pivot, from } = grip;
-    const start = alongLine(projection.rayAt(from), pivot, axis);
-    const end = alongLine(projection.rayAt(to), pivot, axis);
-    return start === null || end === null || Math.abs(start) < 1e-9 ? 1 : end / start;
+function factorAlong(grip: Grip, axis: Vector, to: Spot): number | null {
+    const { pivot, from } = grip;
+    const along = (spot: Spot): number | null => {
+        const point = metUnder(grip, spot);
+        return point && dot(subtract(point, pivot), axis);
+    };
+    const [start, end] = [along(from), along(to)];
+    if (start === null) {
+        return 1;
+    }
+    return end === null ? null : Math.abs(start) < 1e-9 ? 1 : end / start;
 }
 
 function factorFree({ projection, pivot, from }: Grip, to: Spot): number {
@@ -172,20 +202,19 @@ function scaling(constraint: Constraint, factor: number): Delta {
     return { motion: "scale", factors: [x ?? 1, y ?? 1, z ?? 1] };
 }
 
-function resize(grip: Grip, to: Spot, step: number): Delta {
-    const { constraint, frame } = grip;
-    const single = constraint.axis !== null && !constraint.plane;
-    const raw = single
-        ? factorAlong(grip, axisOf(frame, constraint.axis ?? 0), to)
-        : factorFree(grip, to);
-    return scaling(constraint, Math.max(LEAST_FACTOR, step > 0 ? snap(raw, step) : raw));
+function resize(grip: Grip, to: Spot, step: number): Delta | null {
+    const { constraint } = grip;
+    const raw = isSingle(constraint) ? factorAlong(grip, normalOf(grip), to) : factorFree(grip, to);
+    return raw === null
+        ? null
+        : scaling(constraint, Math.max(LEAST_FACTOR, step > 0 ? snap(raw, step) : raw));
 }
 
 /* --- all of them --- */
 
-/* What the hand's way to a point means. `step` 0: nothing snaps. `turned`: the angle before, so that
- * a hand may go around several times. */
-export function deltaTo(grip: Grip, to: Spot, step = 0, turned = 0): Delta {
+/* What the hand's way to a point means; null: nothing, as above the horizon of a plane. `step` 0:
+ * nothing snaps. `turned`: the angle before, so that a hand may go around several times. */
+export function deltaTo(grip: Grip, to: Spot, step = 0, turned = 0): Delta | null {
     switch (grip.constraint.motion) {
         case "move":
             return move(grip, to, step);

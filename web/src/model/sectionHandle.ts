@@ -212,8 +212,8 @@ export interface SectionGrip {
     readonly box: Box;
 }
 
-/* How far along its axis the pointer's way moves the plane. */
-function movedBy({ section, arrow, projection, from }: SectionGrip, to: Spot): number {
+/* How far along its axis the pointer's way moves the plane; null: the pointer is beyond the end of it. */
+function movedBy({ section, arrow, projection, from }: SectionGrip, to: Spot): number | null {
     const axis = axisIndex(section);
     const { at, way, headOn } = arrow;
     if (headOn) {
@@ -222,17 +222,14 @@ function movedBy({ section, arrow, projection, from }: SectionGrip, to: Spot): n
     }
     const constraint = { motion: "move", axis, plane: false } as const;
     const delta = deltaTo({ constraint, pivot: at, frame: IDENTITY, projection, from }, to);
-    return delta.motion === "move" ? delta.by[axis] : 0;
+    return delta?.motion === "move" ? delta.by[axis] : null;
 }
 
-/* Not beyond the box, or where it was. `snaps`: in steps of the place. */
-export function dragSection(grip: SectionGrip, to: Spot, snaps: boolean): Section {
-    return placed(
-        grip.section,
-        grip.section.at + movedBy(grip, to),
-        grip.box,
-        snaps ? SNAP.move : 0,
-    );
+/* Not beyond the box, or where it was. `snaps`: in steps of the place. Null: it stays. */
+export function dragSection(grip: SectionGrip, to: Spot, snaps: boolean): Section | null {
+    const { section, box } = grip;
+    const by = movedBy(grip, to);
+    return by === null ? null : placed(section, section.at + by, box, snaps ? SNAP.move : 0);
 }
 
 /* The same by so many steps; a tenth of them where `fine`. */

@@ -113,7 +113,8 @@ export class Hold {
             same && local ? { ...now, axis: null, plane: false } : { ...now, axis, plane };
         this.#space = same ? (local ? this.#start.space : "local") : this.#space;
         this.#turned = 0;
-        this.#apply();
+        const still = deltaOf(this.grip, now.motion === "scale" ? 1 : 0);
+        this.#apply(this.#delta && still);
     }
 
     /* A character of a number, or "Backspace". False: it means nothing here. */
@@ -147,9 +148,10 @@ export class Hold {
         return [letters, amount, target].filter(Boolean).join(" ");
     }
 
-    #apply(): void {
+    /* `otherwise`: where the hand or the number means nothing; null: what was done so far. */
+    #apply(otherwise: Delta | null = null): void {
         this.#target = null;
-        const delta = this.#typed === "" ? this.#byHand() : this.#byNumber();
+        const delta = (this.#typed === "" ? this.#byHand() : this.#byNumber()) ?? otherwise;
         if (delta === null) {
             return;
         }
@@ -161,11 +163,12 @@ export class Hold {
         }
     }
 
-    #byHand(): Delta {
+    /* Null where the hand means nothing: what was done so far stays. */
+    #byHand(): Delta | null {
         const step = this.#keys.snap ? SNAP[this.#constraint.motion] : 0;
         const delta = deltaTo(this.grip, this.#hand, step, this.#turned);
-        this.#turned = delta.motion === "turn" ? delta.angle : 0;
-        return step > 0 && delta.motion === "move" ? this.#drawn(delta) : delta;
+        this.#turned = delta?.motion === "turn" ? delta.angle : 0;
+        return step > 0 && delta?.motion === "move" ? this.#drawn(delta) : delta;
     }
 
     /* To the middle of another shape where that is near, else to the surface under the pointer, else
@@ -173,7 +176,7 @@ export class Hold {
     #drawn(stepped: Delta): Delta {
         const free = deltaTo(this.grip, this.#hand, 0, 0);
         this.#targets ??= this.#start.targets();
-        const near = free.motion === "move" ? snapTo(this.grip, free.by, this.#targets) : null;
+        const near = free?.motion === "move" ? snapTo(this.grip, free.by, this.#targets) : null;
         const snapped = near ?? this.#onSurface();
         this.#target = snapped?.target ?? null;
         return snapped ? { motion: "move", by: snapped.by } : stepped;

@@ -107,7 +107,7 @@ export class SectionHand {
                 hand = handAfter(hand, pointer, to, fine);
                 pointer = to;
                 if (this.#grip && this.#section) {
-                    this.#set(dragSection(this.#grip, hand, snap));
+                    this.#set(dragSection(this.#grip, hand, snap) ?? this.#section);
                     this.#tell(to);
                 }
             },
