@@ -150,6 +150,27 @@ test("a hand that begins above the horizon goes as if it had taken the pivot", (
     expect(right.by[0]).toBeGreaterThan(0.5);
 });
 
+test("a scaling along an axis that begins beside the pivot grows by the way of the hand", () => {
+    const projection = projectionOf({ ...DEFAULT_CAMERA, position: [0, 0, 6] }, SIZE);
+    const { x, y } = projection.spotOf([0, 0, 0]) ?? { x: 0, y: 0 };
+    const factor = (axis: Axis, from: Spot, to: Spot): unknown => {
+        const constraint: Constraint = { motion: "scale", axis, plane: false };
+        const delta = deltaTo(
+            { constraint, pivot: [0, 0, 0], frame: IDENTITY, projection, from },
+            to,
+        );
+        return delta?.motion === "scale" ? delta.factors[axis] : null;
+    };
+    for (const beside of [-2, 0, 2]) {
+        const from = { x: x + beside, y: y - 150 };
+        expect(factor(0, from, { ...from, x: from.x + 100 })).toBeCloseTo(2, 6);
+        expect(factor(0, from, { ...from, x: from.x - 100 })).toBeCloseTo(0.5, 6);
+        expect(factor(0, from, { ...from, x: from.x + 3 })).toBeLessThan(1.05);
+    }
+    expect(factor(0, { x: x + 50, y }, { x: x + 100, y })).toBeCloseTo(2, 6);
+    expect(factor(2, { x: x + 50, y }, { x: x + 150, y })).toBeCloseTo(2 ** Math.SQRT1_2, 6);
+});
+
 test("1,000 random turns give the angle that was seen", () => {
     let seen = 0;
     for (let i = 0; i < 1000; i++) {

@@ -169,18 +169,29 @@ export function unwrapped(angle: number, before: number): number {
 /* Pixels that double or halve when nothing else says how far the hand is from the pivot. */
 const DOUBLING = 100;
 const LEAST_FACTOR = 0.01;
+/* A hand that begins nearer to the pivot than so many pixels is too near for that. */
+const NEAR_PIVOT = 12;
+/* The sine under which an axis points at the viewer. */
+const HEAD_ON = 0.05;
 
 function factorAlong(grip: Grip, axis: Vector, to: Spot): number | null {
-    const { pivot, from } = grip;
+    const { projection, pivot, from } = grip;
     const along = (spot: Spot): number | null => {
         const point = metUnder(grip, spot);
         return point && dot(subtract(point, pivot), axis);
     };
     const [start, end] = [along(from), along(to)];
-    if (start === null) {
-        return 1;
+    if (start === null || Math.abs(start) < NEAR_PIVOT * projection.unitsAt(pivot)) {
+        return 2 ** (pixelsAlong(projection, axis, from, to) / DOUBLING);
     }
-    return end === null ? null : Math.abs(start) < 1e-9 ? 1 : end / start;
+    return end === null ? null : end / start;
+}
+
+/* How far a hand goes the way that an axis has in the picture; of one that has none, right and up. */
+function pixelsAlong({ right, up }: Projection, axis: Vector, from: Spot, to: Spot): number {
+    const way: Vector = [dot(axis, right), dot(axis, up), 0];
+    const seen = length(way) > HEAD_ON ? normalize(way) : [Math.SQRT1_2, Math.SQRT1_2];
+    return (to.x - from.x) * seen[0] + (from.y - to.y) * seen[1];
 }
 
 function factorFree({ projection, pivot, from }: Grip, to: Spot): number {
