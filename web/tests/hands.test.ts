@@ -332,6 +332,42 @@ test("local axes are those of the node in the world", () => {
     close(axisOf(frameOf(movables, "parent", "move"), 0), axisOf(turned, 0));
 });
 
+test("below a mirror, turns and local axes are those that are seen", () => {
+    const mirror = (size: Vector) =>
+        readDocument({
+            root: {
+                id: "root",
+                type: "group",
+                transform: { rotation: [0, 0.4, 0.2], scale: size },
+                children: [{ id: "a", type: "box", transform: { rotation: [0.1, 0.2, 0.3] } }],
+            },
+        });
+    for (const size of [
+        [-1, 1, 1],
+        [2, -2, 2],
+        [-1, -1, -1],
+    ] as const) {
+        const document = mirror(size);
+        const movables = movablesOf(document, SCHEMA, ["a"], { kind: "nodes" });
+        const delta: Delta = { motion: "turn", axis: normalize([1, 2, 3]), angle: 0.7 };
+        const turned = documentAfter(
+            document,
+            motionOps(movables, delta, [0, 0, 0], IDENTITY, "origin"),
+        );
+        for (const point of [within(1), within(1)]) {
+            const wanted = moved(toWorld(document, "a", point), delta, [0, 0, 0], IDENTITY);
+            close(toWorld(turned, "a", point), wanted, 1e-4);
+        }
+        for (const axis of AXES) {
+            const unit = AXES.map((one) => (one === axis ? 1 : 0)) as unknown as Vector;
+            close(
+                axisOf(frameOf(movables, "local", "move"), axis),
+                normalize(toWorld(document, "a", unit)),
+            );
+        }
+    }
+});
+
 test("a typed number: units along the axis, radians, a factor", () => {
     const grip = (motion: Constraint["motion"]): Grip =>
         someGrip({ motion, axis: 2, plane: false }, IDENTITY);

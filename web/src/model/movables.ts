@@ -36,7 +36,8 @@ export interface Movable {
     /* In the world. */
     readonly origin: Vector;
     readonly center: Vector;
-    /* Columns are unit vectors of the world: its own axes, and those of its parent. */
+    /* Columns are unit vectors of the world: its own axes, and those of its parent. They are
+     * left-handed below a mirror. */
     readonly own: Matrix;
     readonly parent: Matrix;
     readonly motions: readonly Delta["motion"][];
@@ -71,12 +72,19 @@ export function moved(point: Vector, delta: Delta, pivot: Vector, frame: Matrix)
     }
 }
 
-/* The rotations on the way to a node, its own included; scales leave them as they are. */
+/* With the axes turned about along which a scale is negative. */
+const mirrored = (m: Matrix, [x, y, z]: Vector): Matrix => {
+    const signs: Vector = [Math.sign(x), Math.sign(y), Math.sign(z)];
+    return [multiply(m[0], signs), multiply(m[1], signs), multiply(m[2], signs)];
+};
+
+/* The rotations and mirrors on the way to a node, its own included; how large a scale is leaves them
+ * as they are. */
 function turnTo(document: SceneDocument, id: string): Matrix {
-    return pathTo(document, id).reduce(
-        (turned, node) => product(turned, rotation(transformOf(node).rotation)),
-        IDENTITY,
-    );
+    return pathTo(document, id).reduce((turned, node) => {
+        const own = transformOf(node);
+        return mirrored(product(turned, rotation(own.rotation)), own.scale);
+    }, IDENTITY);
 }
 
 const set = (at: string, value: readonly number[]): Operation => ({ op: "set", at, value });
