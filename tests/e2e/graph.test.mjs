@@ -137,6 +137,7 @@ describe('the second view of the one tree', () => {
         await page.keyboard.press('Delete');
         await inputsBecome('pair', ['pole']);
         await card('ring').waitFor({ state: 'detached' });
+        await page.locator('[data-card="pole"]:focus').waitFor();
     });
 
     test('what is selected elsewhere is unfolded and comes in sight', async () => {
@@ -150,6 +151,12 @@ describe('the second view of the one tree', () => {
             return box && box.y >= flow.y && box.y + box.height <= flow.y + flow.height;
         }, 'the first card in sight');
         assert.ok((await page.locator('[data-card]').count()) < 40, 'cards out of sight are not drawn');
+        await card('s0').focus();
+        await page.keyboard.press('ArrowRight');
+        await page.locator('[data-card="root"]:focus').waitFor();
+        await card('s0').waitFor({ state: 'detached' });
+        await page.keyboard.press('ArrowLeft');
+        await page.locator('[data-card="s19"]:focus').waitFor();
     });
 
     test('isolate shows a part alone and is no edit; mute hides it', async () => {

@@ -3,7 +3,7 @@
  * values between them. */
 import type { Node, NodeProps } from "@xyflow/react";
 import { ChevronsLeft, ChevronsRight, Eye, EyeOff, Focus } from "lucide-react";
-import { memo, type ReactNode, useEffect, useRef, useState } from "react";
+import { memo, type ReactNode, useEffect, useLayoutEffect, useRef, useState } from "react";
 import { isShown, isVisible, nodeLabel, parentOf } from "../../model/document.ts";
 import { setVisible } from "../../model/edits.ts";
 import { type Card, inputY, neighbour, resultOf, roomForPicture } from "../../model/graph.ts";
@@ -28,10 +28,14 @@ export function GraphCard({ data: { card } }: NodeProps<CardNode>) {
 }
 
 const CardBody = memo(function CardBody({ card }: { card: Card }) {
+    const type = useDocument(({ document }) => document?.nodes.get(card.id)?.type ?? "");
+    return type === "" ? null /* removed; the graph follows */ : <Shown card={card} type={type} />;
+});
+
+function Shown({ card, type }: { card: Card; type: string }) {
     const { id } = card;
     const far = useFar();
     const element = useRef<HTMLDivElement>(null);
-    const type = useDocument(({ document }) => document?.nodes.get(id)?.type ?? "");
     const group = useDocument(({ schema }) => nodeType(schema, type)?.group);
     const name = useName(id);
     const label = useLabel(card, name, type);
@@ -41,9 +45,6 @@ const CardBody = memo(function CardBody({ card }: { card: Card }) {
     useFocus(element, id);
     const acts = useActs(card);
     const tabIndex = useTabIndex(id);
-    if (type === "") {
-        return null /* removed; the graph follows */;
-    }
     return (
         // biome-ignore lint/a11y/useSemanticElements: a fieldset brings a look of its own
         <div
@@ -77,7 +78,7 @@ const CardBody = memo(function CardBody({ card }: { card: Card }) {
             <Ports card={card} name={name} />
         </div>
     );
-});
+}
 
 interface PictureProps {
     id: string;
@@ -152,9 +153,18 @@ function useTabIndex(id: string): 0 | -1 {
     return (active === null ? graph.root === id : active === id) ? 0 : -1;
 }
 
-/* The focus goes along with the selection, unless it is somewhere else. */
+/* The focus goes along with the selection, unless it is somewhere else. A card that goes, as it is
+ * deleted or out of sight, leaves it to the panel, for the next one to take. */
 function useFocus(element: { readonly current: HTMLElement | null }, id: string): void {
     const active = useView((view) => view.selection.at(-1) === id);
+    useLayoutEffect(() => {
+        const own = element.current;
+        return () => {
+            if (own?.contains(document.activeElement)) {
+                own.closest<HTMLElement>(".graph-panel")?.focus({ preventScroll: true });
+            }
+        };
+    }, [element]);
     useEffect(() => {
         if (active && document.activeElement?.matches("[data-card], .graph-panel")) {
             element.current?.focus({ preventScroll: true });
