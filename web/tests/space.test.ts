@@ -197,6 +197,14 @@ test("pan moves what is at the target by exactly the pointer's way", () => {
     expect(pan(CAMERA, 0, 10, height).target[1]).toBeGreaterThan(1);
 });
 
+test("a camera beyond the limits of a dolly comes back to them in steps", () => {
+    const at = (far: number) => ({ ...CAMERA, position: add(CAMERA.target, [0, 0, far]) });
+    expect(distance(dolly(at(1e6), 0.8))).toBeCloseTo(8e5, 0);
+    expect(distance(dolly(at(1e6), 1.25))).toBeCloseTo(1e6, 0);
+    expect(distance(dolly(at(1e-5), 1.25))).toBeCloseTo(1.25e-5, 9);
+    expect(distance(dolly(at(1e4), 1e6))).toBeCloseTo(1e5, 0);
+});
+
 test("dolly keeps what lies under the pointer, with perspective or without", () => {
     const pointer = { x: 100, y: 50, width: 640, height: 360 };
     for (const camera of [CAMERA, FLAT, { ...CAMERA, position: [2, 4, 1] as Vector }]) {

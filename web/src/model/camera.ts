@@ -135,10 +135,12 @@ export function pointUnder(camera: Camera, { x, y, width, height }: Pointer): Ve
 }
 
 /* Changes the distance by `factor` (< 1 is nearer), keeping what lies under the pointer at the
- * target's distance in place. */
+ * target's distance in place. A camera that is beyond the limits, as F puts it before something huge,
+ * comes back to them by the same steps. */
 export function dolly(camera: Camera, factor: number, pointer?: Pointer): Camera {
     const before = distance(camera);
-    const after = Math.min(FARTHEST, Math.max(NEAREST, before * factor));
+    const [least, most] = [Math.min(NEAREST, before), Math.max(FARTHEST, before)];
+    const after = Math.min(most, Math.max(least, before * factor));
     const applied = before > 0 ? after / before : 1;
     const anchor = pointer ? pointUnder(camera, pointer) : camera.target;
     const shrink = (p: Vector): Vector => add(anchor, scale(subtract(p, anchor), applied));
