@@ -152,6 +152,25 @@ test("the wheel goes to the pointer, on a trackpad it orbits, pans and pinches",
     expect(distance(camera)).toBeLessThan(distance(DEFAULT_CAMERA));
 });
 
+test("a wheel that turns in a drag zooms, and the drag goes on from there", () => {
+    const near = { x: 320, y: 180, dx: 0, dy: -200, shift: false, ctrl: false };
+    for (const button of [0, 1, 2]) {
+        camera = DEFAULT_CAMERA;
+        machine.down(at(100, 100, { button }));
+        machine.move(at(160, 100));
+        machine.wheel(near);
+        const zoomed = camera;
+        expect(distance(zoomed)).toBeLessThan(0.8 * distance(DEFAULT_CAMERA));
+        machine.move(at(160, 100));
+        expect(camera).toEqual(zoomed);
+        machine.move(at(190, 100));
+        expect(distance(camera)).toBeCloseTo(distance(zoomed), 9);
+        expect(camera).not.toEqual(zoomed);
+        machine.cancel();
+        expect(camera).toBe(DEFAULT_CAMERA);
+    }
+});
+
 const touch = (id: number, x: number, y: number, part: Partial<Press> = {}): Press =>
     at(x, y, { id, type: "touch", ...part });
 

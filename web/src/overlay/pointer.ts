@@ -101,6 +101,8 @@ type State =
           readonly span: number;
           /* What Esc goes back to. */
           readonly before: Camera;
+          /* Where the movement is now; the camera is elsewhere once something else moves it. */
+          readonly reached: Camera;
       };
 
 export class PointerMachine {
@@ -156,6 +158,10 @@ export class PointerMachine {
         }
         if (!this.#fingers.has(press.id)) {
             return;
+        }
+        if (this.#state.kind === "dragging" && this.#actions.camera() !== this.#state.reached) {
+            /* A wheel or a key has moved it meanwhile: the drag goes on from there. */
+            this.#startDrag(this.#state.gesture);
         }
         this.#fingers.set(press.id, press);
         if (this.#state.kind === "pressed") {
@@ -323,6 +329,7 @@ export class PointerMachine {
             from: from ?? this.#center(),
             span: this.#span(),
             before: before ?? goesBackTo,
+            reached: start,
         };
         this.#actions.gesture(gesture);
     }
@@ -350,6 +357,7 @@ export class PointerMachine {
             const factor = this.#fingers.size > 1 && now > 0 ? span / now : 1;
             camera = dolly(pan(start, dx, dy, height), factor, this.#pointer(to));
         }
+        this.#state = { ...this.#state, reached: camera };
         this.#actions.moveCamera(camera);
     }
 
