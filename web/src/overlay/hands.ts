@@ -104,6 +104,8 @@ export class Hands {
     /* The parameter follows the pointer, from where the handle was. */
     #holdHandle(handle: Handle, from: Spot): Holding {
         let step: Step | null = null;
+        /* The one that the handle was seen with: a camera that moves meanwhile changes no value. */
+        const projection = this.#projection();
         const finish = (how: "end" | "cancel"): void => {
             step?.[how]();
             this.#handle = null;
@@ -115,7 +117,6 @@ export class Hands {
                 step = this.#page.begin(`change ${handle.param.name} of`);
             },
             move: (to) => {
-                const projection = this.#projection();
                 const change =
                     projection && dragHandle(handle, projection, from, to, to.ctrl !== this.#snaps);
                 if (change) {

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// @vitest-environment jsdom
+// What a hand holds in the picture while the picture changes.
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { DEFAULT_CAMERA, dolly } from "../src/model/camera.ts";
+import { readDocument } from "../src/model/documentJson.ts";
+import { handlesOf } from "../src/model/handles.ts";
+import type { Operation } from "../src/model/operation.ts";
+import { projectionOf, type Spot } from "../src/model/projection.ts";
+import { readSchema } from "../src/model/schema.ts";
+import { createStores, NO_FRAME } from "../src/model/stores.ts";
+import { Hands } from "../src/overlay/hands.ts";
+import type { Press } from "../src/overlay/pointer.ts";
+
+const SIZE = { width: 640, height: 360 };
+const SCHEMA = readSchema({
+    "x-fieldcast": {
+        nodes: [
+            {
+                type: "ball",
+                group: "primitive",
+                children: "none",
+                params: [
+                    {
+                        ...{ name: "radius", type: "float", default: 0.5, unit: "length" },
+                        ...{ min: 0, max: 100, handle: "radius, 0, 0" },
+                    },
+                ],
+            },
+        ],
+    },
+});
+const DOCUMENT = readDocument({
+    root: { id: "root", type: "union", children: [{ id: "a", type: "ball" }] },
+});
+
+/* jsdom lays nothing out. */
+class Observer {
+    readonly #told: () => void;
+
+    constructor(told: () => void) {
+        this.#told = told;
+    }
+
+    observe(): void {
+        this.#told();
+    }
+
+    disconnect(): void {}
+}
+
+const stores = createStores(null);
+let hands: Hands;
+let edits: (readonly Operation[])[];
+
+function look(camera: typeof DEFAULT_CAMERA): void {
+    stores.link.setState({ frame: { ...NO_FRAME, state: "moving", camera } });
+}
+
+beforeEach(() => {
+    vi.stubGlobal("ResizeObserver", Observer);
+    vi.spyOn(HTMLCanvasElement.prototype, "getContext").mockReturnValue(null);
+    edits = [];
+    stores.document.setState({ document: DOCUMENT, schema: SCHEMA });
+    stores.view.setState({ selection: ["a"], subject: { kind: "nodes" } });
+    look(DEFAULT_CAMERA);
+    const element = document.body.appendChild(document.createElement("div"));
+    Object.defineProperty(element, "clientWidth", { value: SIZE.width });
+    Object.defineProperty(element, "clientHeight", { value: SIZE.height });
+    const edit = (ops: readonly Operation[]): boolean => edits.push(ops) > 0;
+    const begin = () => ({ edit, end: () => undefined, cancel: () => undefined });
+    hands = new Hands({ stores, begin, refuse: () => undefined, edgeHint: "" }, element);
+});
+
+afterEach(() => {
+    hands.end();
+    document.body.replaceChildren();
+    vi.restoreAllMocks();
+    vi.unstubAllGlobals();
+});
+
+const press = ({ x, y }: Spot): Press => ({
+    ...{ id: 1, type: "mouse", button: 0, buttons: 1, x, y },
+    ...{ shift: false, ctrl: false, alt: false, at: 0 },
+});
+
+test("a camera that moves while a parameter is held does not change its value", () => {
+    const projection = projectionOf(DEFAULT_CAMERA, SIZE);
+    const [handle] = handlesOf(DOCUMENT, SCHEMA, ["a"], { kind: "nodes" }, projection);
+    const from = press(handle?.spot ?? { x: 0, y: 0 });
+    const holding = hands.grab(from);
+    if (holding === null || holding === "taken") {
+        throw new Error("nothing to hold");
+    }
+    holding.start();
+    look(dolly(DEFAULT_CAMERA, 0.5));
+    holding.move(from);
+    const [[op] = []] = edits;
+    expect(op).toMatchObject({ op: "set", at: "/nodes/a/params/radius" });
+    expect(op && "value" in op ? op.value : null).toBeCloseTo(0.5, 6);
+    holding.end();
+});
