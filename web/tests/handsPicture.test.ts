@@ -10,7 +10,9 @@ import { projectionOf, type Spot } from "../src/model/projection.ts";
 import { readSchema } from "../src/model/schema.ts";
 import { createStores, NO_FRAME } from "../src/model/stores.ts";
 import { Hands } from "../src/overlay/hands.ts";
-import type { Press } from "../src/overlay/pointer.ts";
+import type { Holding, Press } from "../src/overlay/pointer.ts";
+import type { Editor } from "../src/ui/editor.ts";
+import { handsPage } from "../src/ui/view/pointer.ts";
 
 const SIZE = { width: 640, height: 360 };
 const SCHEMA = readSchema({
@@ -61,15 +63,15 @@ beforeEach(() => {
     vi.stubGlobal("ResizeObserver", Observer);
     vi.spyOn(HTMLCanvasElement.prototype, "getContext").mockReturnValue(null);
     edits = [];
-    stores.document.setState({ document: DOCUMENT, schema: SCHEMA });
+    stores.document.setState({ scene: "one", document: DOCUMENT, schema: SCHEMA });
     stores.view.setState({ selection: ["a"], subject: { kind: "nodes" } });
     look(DEFAULT_CAMERA);
     const element = document.body.appendChild(document.createElement("div"));
     Object.defineProperty(element, "clientWidth", { value: SIZE.width });
     Object.defineProperty(element, "clientHeight", { value: SIZE.height });
     const edit = (ops: readonly Operation[]): boolean => edits.push(ops) > 0;
-    const begin = () => ({ edit, end: () => undefined, cancel: () => undefined });
-    hands = new Hands({ stores, begin, refuse: () => undefined, edgeHint: "" }, element);
+    const gesture = () => ({ group: "1", edit, end: () => undefined, cancel: () => undefined });
+    hands = new Hands(handsPage({ stores, link: { gesture } } as unknown as Editor), element);
 });
 
 afterEach(() => {
@@ -84,7 +86,8 @@ const press = ({ x, y }: Spot): Press => ({
     ...{ shift: false, ctrl: false, alt: false, at: 0 },
 });
 
-test("a camera that moves while a parameter is held does not change its value", () => {
+/* Takes hold of the radius. */
+function hold(): { holding: Holding; from: Press } {
     const projection = projectionOf(DEFAULT_CAMERA, SIZE);
     const [handle] = handlesOf(DOCUMENT, SCHEMA, ["a"], { kind: "nodes" }, projection);
     const from = press(handle?.spot ?? { x: 0, y: 0 });
@@ -93,10 +96,25 @@ test("a camera that moves while a parameter is held does not change its value", 
         throw new Error("nothing to hold");
     }
     holding.start();
+    return { holding, from };
+}
+
+test("a camera that moves while a parameter is held does not change its value", () => {
+    const { holding, from } = hold();
     look(dolly(DEFAULT_CAMERA, 0.5));
     holding.move(from);
     const [[op] = []] = edits;
     expect(op).toMatchObject({ op: "set", at: "/nodes/a/params/radius" });
     expect(op && "value" in op ? op.value : null).toBeCloseTo(0.5, 6);
     holding.end();
+});
+
+test("what was taken in one scene changes nothing in another with the same names", () => {
+    const { holding, from } = hold();
+    holding.move({ ...from, x: from.x + 20 });
+    expect(edits).toHaveLength(1);
+    stores.document.setState({ scene: "other" });
+    holding.move({ ...from, x: from.x + 40 });
+    holding.end();
+    expect(edits).toHaveLength(1);
 });

@@ -14,6 +14,7 @@ import type { Step } from "../../overlay/hold.ts";
 import type { PointerActions } from "../../overlay/pointer.ts";
 import { guideAt } from "../../overlay/shown.ts";
 import type { Editor } from "../editor.ts";
+import { sceneKept } from "../opening.ts";
 import type { Target } from "../scene/NodeMenu.tsx";
 import { t } from "../texts.ts";
 import type { MenuPlace } from "../widgets/Menu.tsx";
@@ -180,11 +181,20 @@ function nameOfHeld({ document: scene, view }: Stores): string {
     return document ? nameAll(document, topmost(document, selection)) : "";
 }
 
-/* What hands ask of the page: an undo step of what is selected, and words. */
-export function handsPage({ stores, link }: Editor): HandsPage {
+/* An undo step of what is selected. It does nothing in another scene, whose nodes may have the same
+ * names: the way back of a browser ends no drag. */
+function beginStep({ stores, link }: Editor, what: string): Step {
+    const isKept = sceneKept({ stores });
+    const step = link.gesture(`${what} ${nameOfHeld(stores)}`);
+    return { ...step, edit: (ops) => isKept() && step.edit(ops) };
+}
+
+/* What hands ask of the page: an undo step, and words. */
+export function handsPage(editor: Editor): HandsPage {
+    const { stores } = editor;
     return {
         stores,
-        begin: (what): Step => link.gesture(`${what} ${nameOfHeld(stores)}`),
+        begin: (what) => beginStep(editor, what),
         refuse: (limit) => {
             const message =
                 "most" in limit
