@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The files of a folder: what each is, what it is called, and what names what. */
+#include <search.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,20 +48,38 @@ bool import_fail(const struct importing *importing, const struct import_item *it
                         message);
 }
 
+bool import_fail_limit(const struct importing *importing, const struct import_item *item,
+                       const struct import_value *value, size_t count, const char *what,
+                       size_t most)
+{
+    return error_set_at(importing->err, ERROR_LIMIT, item->path, value->line, value->column,
+                        "%zu %s are above the maximum %zu", count, what, most);
+}
+
+static bool fail_member(const struct importing *importing, const struct import_item *item,
+                        const struct import_value *member, const char *const *names)
+{
+    struct suggestion suggestion = {.text = member->name};
+    char hint[64];
+
+    for (int i = 0; names[i]; i++) {
+        suggest_consider(&suggestion, names[i]);
+    }
+    return import_fail(importing, item, member, "there is no member \"%.64s\" here%s", member->name,
+                       suggest_hint(&suggestion, hint, sizeof hint));
+}
+
 bool import_check_members(const struct importing *importing, const struct import_item *item,
                           const struct import_value *object, const char *const *names)
 {
     for (const struct import_value *member = object->first; member; member = member->next) {
-        struct suggestion suggestion = {.text = member->name};
-        char hint[64];
         int i = 0;
 
-        for (; names[i] && strcmp(names[i], member->name) != 0; i++) {
-            suggest_consider(&suggestion, names[i]);
+        while (names[i] && strcmp(names[i], member->name) != 0) {
+            i++;
         }
         if (!names[i]) {
-            return import_fail(importing, item, member, "there is no member \"%.64s\" here%s",
-                               member->name, suggest_hint(&suggestion, hint, sizeof hint));
+            return fail_member(importing, item, member, names);
         }
     }
     return true;
@@ -80,55 +99,106 @@ bool import_take(const struct importing *importing, const struct import_item *it
            import_fail(importing, item, *out, "%s: expected %s", name, kinds[kind]);
 }
 
-bool import_has(const struct importing *importing, enum import_role role, const char *name)
-{
-    for (size_t i = 0; i < importing->count; i++) {
-        const struct import_item *one = &importing->items[i];
+/* --- names --- */
 
-        if (one->role == role && (strcmp(one->stem, name) == 0 || strcmp(one->name, name) == 0)) {
-            return true;
+static int compare_roles(enum import_role a, enum import_role b)
+{
+    return (a > b) - (a < b);
+}
+
+static int compare_keys(const struct import_name *a, const struct import_name *b)
+{
+    return a->role != b->role ? compare_roles(a->role, b->role) : strcmp(a->text, b->text);
+}
+
+/* Of one text the higher rank first, then the earlier file. */
+static int compare_names(const void *one, const void *other)
+{
+    const struct import_name *a = one, *b = other;
+    const int keys = compare_keys(a, b);
+
+    return keys != 0            ? keys
+           : a->rank != b->rank ? b->rank - a->rank
+                                : (a->item > b->item) - (a->item < b->item);
+}
+
+static void sort_names(struct importing *importing)
+{
+    importing->names = memory_alloc(2 * importing->count, sizeof *importing->names);
+    for (size_t i = 0; i < importing->count; i++) {
+        struct import_item *item = &importing->items[i];
+        const bool by_file = roles[item->role].by_file;
+
+        importing->names[2 * i] =
+            (struct import_name){item->role, item->stem, by_file ? 2 : 1, item};
+        importing->names[2 * i + 1] =
+            (struct import_name){item->role, item->name, by_file ? 1 : 2, item};
+    }
+    qsort(importing->names, 2 * importing->count, sizeof *importing->names, compare_names);
+}
+
+/* The first of this text, NULL: none. `*out_left`: names from there to the end. */
+static const struct import_name *find_name(const struct importing *importing, enum import_role role,
+                                           const char *text, size_t *out_left)
+{
+    const struct import_name wanted = {.role = role, .text = text};
+    size_t low = 0, high = 2 * importing->count;
+
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+
+        if (compare_keys(&importing->names[middle], &wanted) < 0) {
+            low = middle + 1;
+        } else {
+            high = middle;
         }
     }
-    return false;
+    *out_left = 2 * importing->count - low;
+    return *out_left > 0 && compare_keys(&importing->names[low], &wanted) == 0
+               ? &importing->names[low]
+               : NULL;
+}
+
+bool import_has(const struct importing *importing, enum import_role role, const char *name)
+{
+    size_t left;
+
+    return find_name(importing, role, name, &left) != NULL;
+}
+
+/* Says that there is none, and which one was probably meant. */
+static void fail_find(const struct importing *importing, const struct import_item *item,
+                      const struct import_value *value, enum import_role role, const char *name)
+{
+    struct suggestion suggestion = {.text = name};
+    char hint[64];
+
+    for (size_t i = 0; i < 2 * importing->count; i++) {
+        if (importing->names[i].role == role && *importing->names[i].text) {
+            suggest_consider(&suggestion, importing->names[i].text);
+        }
+    }
+    import_fail(importing, item, value, "no file has the %s \"%.64s\"%s", roles[role].what, name,
+                suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 struct import_item *import_find(const struct importing *importing, const struct import_item *item,
                                 const struct import_value *value, enum import_role role,
                                 const char *name)
 {
-    struct suggestion suggestion = {.text = name};
-    struct import_item *found = NULL, *other = NULL;
-    int best = 0;
-    char hint[64];
+    size_t left;
+    const struct import_name *found = find_name(importing, role, name, &left);
 
-    for (size_t i = 0; i < importing->count; i++) {
-        struct import_item *one = &importing->items[i];
-        const bool by_file = strcmp(one->stem, name) == 0, by_name = strcmp(one->name, name) == 0;
-        const int rank = (roles[role].by_file ? by_file : by_name) ? 2 : by_file || by_name;
-
-        if (one->role != role) {
-            continue;
-        }
-        suggest_consider(&suggestion, one->stem);
-        if (*one->name) {
-            suggest_consider(&suggestion, one->name);
-        }
-        if (rank > best) {
-            best = rank;
-            found = one;
-            other = NULL;
-        } else if (rank > 0 && rank == best) {
-            other = one;
-        }
-    }
     if (!found) {
-        import_fail(importing, item, value, "no file has the %s \"%.64s\"%s", roles[role].what,
-                    name, suggest_hint(&suggestion, hint, sizeof hint));
-    } else if (other) {
-        import_fail(importing, item, value, "\"%.64s\" may be the %s of %.60s or of %.60s", name,
-                    roles[role].what, found->path, other->path);
+        fail_find(importing, item, value, role, name);
+        return NULL;
     }
-    return other ? NULL : found;
+    if (left > 1 && compare_keys(&found[0], &found[1]) == 0 && found[0].rank == found[1].rank) {
+        import_fail(importing, item, value, "\"%.64s\" may be the %s of %.60s or of %.60s", name,
+                    roles[role].what, found[0].item->path, found[1].item->path);
+        return NULL;
+    }
+    return found->item;
 }
 
 void import_mark(struct importing *importing, const char *list, const char *name,
@@ -146,14 +216,49 @@ void import_mark(struct importing *importing, const char *list, const char *name
 
 /* --- ids --- */
 
-static bool id_is_used(const struct importing *importing, const struct import_item *item)
+/* Ids given so far, and what was tried for names that several files have. */
+struct ids {
+    void *used;  /* search tree of items, by role and id */
+    void *tried; /* the same of struct tried */
+};
+
+struct tried {
+    enum import_role role;
+    char base[LIMIT_ID_BYTES + 1];
+    int number; /* up to this all are used */
+};
+
+static int compare_used(const void *one, const void *other)
 {
-    for (const struct import_item *other = importing->items; other < item; other++) {
-        if (other->role == item->role && strcmp(other->id, item->id) == 0) {
-            return true;
-        }
+    const struct import_item *a = one, *b = other;
+
+    return a->role != b->role ? compare_roles(a->role, b->role) : strcmp(a->id, b->id);
+}
+
+static int compare_tried(const void *one, const void *other)
+{
+    const struct tried *a = one, *b = other;
+
+    return a->role != b->role ? compare_roles(a->role, b->role) : strcmp(a->base, b->base);
+}
+
+static bool id_is_used(const struct ids *ids, const struct import_item *item)
+{
+    return tfind(item, &ids->used, compare_used) ||
+           (item->role == IMPORT_SHADER && record_type_in(shader_types, item->id));
+}
+
+static struct tried *tried_of(struct ids *ids, const struct import_item *item)
+{
+    struct tried *fresh = memory_alloc(1, sizeof *fresh);
+
+    *fresh = (struct tried){.role = item->role, .number = 1};
+    snprintf(fresh->base, sizeof fresh->base, "%s", item->id);
+    struct tried *found = *(struct tried **)tsearch(fresh, &ids->tried, compare_tried);
+    if (found != fresh) {
+        free(fresh);
     }
-    return item->role == IMPORT_SHADER && record_type_in(shader_types, item->id);
+    return found;
 }
 
 /* What of a name an id may hold, with "-" for what it may not. */
@@ -177,7 +282,7 @@ static size_t make_valid(char out[LIMIT_ID_BYTES + 1], const char *name, size_t 
     return used;
 }
 
-static void give_id(const struct importing *importing, struct import_item *item)
+static void give_id(struct ids *ids, struct import_item *item)
 {
     enum { NUMBER_BYTES = 8 };
     const bool named = *item->name && item->role != IMPORT_MATERIAL;
@@ -187,9 +292,27 @@ static void give_id(const struct importing *importing, struct import_item *item)
     if (used == 0) {
         used = (size_t)snprintf(item->id, sizeof item->id, "%s", roles[item->role].what);
     }
-    for (int number = 2; id_is_used(importing, item); number++) {
-        snprintf(item->id + used, sizeof item->id - used, "-%d", number);
+    struct tried *tried = id_is_used(ids, item) ? tried_of(ids, item) : NULL;
+    while (id_is_used(ids, item)) {
+        snprintf(item->id + used, sizeof item->id - used, "-%d", ++tried->number);
     }
+    tsearch(item, &ids->used, compare_used);
+}
+
+static void leave(void *item)
+{
+    (void)item;
+}
+
+static void give_ids(struct importing *importing)
+{
+    struct ids ids = {.used = NULL};
+
+    for (size_t i = 0; i < importing->count; i++) {
+        give_id(&ids, &importing->items[i]);
+    }
+    tdestroy(ids.used, leave);
+    tdestroy(ids.tried, free);
 }
 
 /* --- reading the files --- */
@@ -269,9 +392,8 @@ bool import_read_files(struct importing *importing, const struct import_source *
             return false;
         }
     }
-    for (size_t i = 0; i < importing->count; i++) {
-        give_id(importing, &importing->items[i]);
-    }
+    give_ids(importing);
+    sort_names(importing);
     return importing->count > 0 || error_set(importing->err, ERROR_INVALID, "",
                                              "there is no file whose name ends with %s", extension);
 }
@@ -284,4 +406,5 @@ void import_finish_files(struct importing *importing)
         free(importing->items[i].materials);
     }
     free(importing->items);
+    free(importing->names);
 }

@@ -109,6 +109,9 @@ static cJSON *exhibit(struct importing *importing, const struct import_item *ite
 {
     cJSON *node = import_bare_node(importing, type, item, item->value);
 
+    if (!node) {
+        return NULL;
+    }
     cJSON_AddStringToObject(node, "name", title_of(item));
     cJSON_AddStringToObject(
         strcmp(member, "material") == 0 ? node : cJSON_AddObjectToObject(node, "params"), member,
@@ -208,6 +211,7 @@ static cJSON *build(struct importing *importing, const struct import_item *scene
     /* Colours are shown as the format's renderer shows them. */
     cJSON_AddStringToObject(cJSON_AddObjectToObject(document, "render"), "tone_map", "none");
     root = cJSON_AddObjectToObject(document, "root");
+    importing->nodes = 1;
     cJSON_AddStringToObject(root, "id", "root");
     cJSON_AddStringToObject(root, "type", "union");
     cJSON *children = cJSON_AddArrayToObject(root, "children");
@@ -216,6 +220,7 @@ static cJSON *build(struct importing *importing, const struct import_item *scene
         ok = add_scene(importing, scene, children);
     } else if (ok) {
         add_exhibits(importing, document, children);
+        ok = importing->nodes <= LIMIT_NODES;
     }
     if (!ok) {
         cJSON_Delete(document);

@@ -31,6 +31,14 @@ struct import_item {
     int numbers; /* of a primitive: how many of `data` it reads or is given */
 };
 
+/* What others may call a file by. */
+struct import_name {
+    enum import_role role;
+    const char *text;
+    int rank; /* 2: the one that others of its role are called by; 1: the other one */
+    struct import_item *item;
+};
+
 /* Where something of the document comes from. */
 struct import_mark {
     char place[LIMIT_ID_BYTES * 2 + 32]; /* "/nodes/sphere-1" */
@@ -41,9 +49,11 @@ struct import_mark {
 struct importing {
     struct import_item *items;
     size_t count;
+    struct import_name *names; /* sorted; two of each item */
     struct import_mark *marks;
     size_t mark_count, mark_room;
     size_t *numbers; /* by the index of the node type: the last given to a node */
+    size_t nodes;    /* of the document so far */
     struct error *err;
 };
 
@@ -60,6 +70,10 @@ const char *import_role_list(enum import_role role);
 bool import_fail(const struct importing *importing, const struct import_item *item,
                  const struct import_value *value, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+/* The same of more `what` than may be. */
+bool import_fail_limit(const struct importing *importing, const struct import_item *item,
+                       const struct import_value *value, size_t count, const char *what,
+                       size_t most);
 /* Refuses members that are not among `names`. */
 bool import_check_members(const struct importing *importing, const struct import_item *item,
                           const struct import_value *object, const char *const *names);
@@ -106,7 +120,7 @@ bool import_read_data(const struct importing *importing, const struct import_ite
 /* A node of the document with all below it; NULL and err on failure. */
 cJSON *import_node(struct importing *importing, const struct import_item *item,
                    const struct import_value *value);
-/* {id, type}; `value` is where it comes from. */
+/* {id, type}; `value` is where it comes from. NULL and err where these are too many nodes. */
 cJSON *import_bare_node(struct importing *importing, const char *type,
                         const struct import_item *item, const struct import_value *value);
 /* Finds how many numbers of its `data` each primitive is given. */

@@ -155,14 +155,18 @@ static bool add_material(const struct importing *importing, const struct import_
 cJSON *import_bare_node(struct importing *importing, const char *type,
                         const struct import_item *item, const struct import_value *value)
 {
-    cJSON *node = cJSON_CreateObject();
     char id[LIMIT_ID_BYTES + 1];
     size_t index = 0;
 
+    if (++importing->nodes > LIMIT_NODES) {
+        import_fail_limit(importing, item, value, importing->nodes, "nodes", LIMIT_NODES);
+        return NULL;
+    }
     while (strcmp(node_type_at(index)->record.name, type) != 0) {
         index++;
     }
     snprintf(id, sizeof id, "%s-%zu", type, ++importing->numbers[index]);
+    cJSON *node = cJSON_CreateObject();
     import_mark(importing, "nodes", id, item, value);
     cJSON_AddStringToObject(node, "id", id);
     cJSON_AddStringToObject(node, "type", type);
@@ -176,7 +180,7 @@ static cJSON *built_in_node(struct importing *importing, const struct import_ite
 {
     cJSON *node = import_bare_node(importing, built_in->type->record.name, item, value);
 
-    if (data && !import_add_data(importing, item, built_in, name, data, node)) {
+    if (node && data && !import_add_data(importing, item, built_in, name, data, node)) {
         cJSON_Delete(node);
         return NULL;
     }
@@ -196,6 +200,9 @@ static cJSON *named_node(struct importing *importing, const struct import_item *
         return NULL;
     }
     node = import_bare_node(importing, model ? "model" : "field", item, value);
+    if (!node) {
+        return NULL;
+    }
     cJSON_AddStringToObject(node, "name", *named->name ? named->name : named->stem);
     params = cJSON_AddObjectToObject(node, "params");
     cJSON_AddStringToObject(params, model ? "model" : "primitive", named->id);

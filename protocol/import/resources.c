@@ -211,10 +211,24 @@ static bool is_colour(const struct property *property)
            (strcasestr(property->name, "color") || strcasestr(property->name, "colour"));
 }
 
+/* The list of a shader's properties: no longer than what a shader may declare. */
+static const struct import_value *properties_of(const struct importing *importing,
+                                                const struct import_item *shader)
+{
+    const struct import_value *list =
+        need(importing, shader, shader->value, "properties", IMPORT_LIST);
+
+    if (list && list->count > LIMIT_DECLARED) {
+        import_fail_limit(importing, shader, list, list->count, "properties", LIMIT_DECLARED);
+        return NULL;
+    }
+    return list;
+}
+
 cJSON *import_shader(struct importing *importing, const struct import_item *item)
 {
     static const char *const members[] = {"name", "properties", "code", NULL};
-    const struct import_value *list = need(importing, item, item->value, "properties", IMPORT_LIST);
+    const struct import_value *list = properties_of(importing, item);
     const struct import_value *code =
         list ? need(importing, item, item->value, "code", IMPORT_TEXT) : NULL;
 
@@ -345,7 +359,7 @@ cJSON *import_material(struct importing *importing, const struct import_item *it
     }
     const struct import_item *shader =
         import_find(importing, item, base, IMPORT_SHADER, base->text);
-    if (!shader || !need(importing, shader, shader->value, "properties", IMPORT_LIST)) {
+    if (!shader || !properties_of(importing, shader)) {
         return NULL;
     }
     cJSON *material = cJSON_CreateObject();

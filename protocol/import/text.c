@@ -3,6 +3,7 @@
 #include "text.h"
 
 #include <math.h>
+#include <search.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -93,11 +94,17 @@ static struct import_value *value_create(const struct reader *reader)
     return value;
 }
 
+static void leave(void *member)
+{
+    (void)member;
+}
+
 void import_value_destroy(struct import_value *value)
 {
     while (value) {
         struct import_value *next = value->next;
 
+        tdestroy(value->names, leave);
         import_value_destroy(value->first);
         free(value->text);
         free(value->name);
@@ -284,20 +291,24 @@ static bool read_word(struct reader *reader, struct import_value *value)
 
 static struct import_value *read_value(struct reader *reader);
 
+static int compare_members(const void *a, const void *b)
+{
+    const struct import_value *one = a, *other = b;
+
+    return strcmp(one->name, other->name);
+}
+
 static bool add_member(struct reader *reader, struct import_value *object,
                        struct import_value *member)
 {
-    struct import_value **last = &object->first;
+    if (*(struct import_value **)tsearch(member, &object->names, compare_members) != member) {
+        const int line = member->line, column = member->column;
 
-    for (; *last; last = &(*last)->next) {
-        if (strcmp((*last)->name, member->name) == 0) {
-            const int line = member->line, column = member->column;
-
-            import_value_destroy(member);
-            return fail(reader, line, column, "a member of this name stands in the object already");
-        }
+        import_value_destroy(member);
+        return fail(reader, line, column, "a member of this name stands in the object already");
     }
-    *last = member;
+    *(object->last ? &object->last->next : &object->first) = member;
+    object->last = member;
     object->count++;
     return object->count <= LIMIT_JSON_KEYS ||
            fail(reader, member->line, member->column, "the object has too many members");
@@ -387,7 +398,7 @@ static bool continue_object(struct reader *reader, struct import_value *list,
 
 static bool read_elements(struct reader *reader, struct import_value *list)
 {
-    struct import_value **last = &list->first, *before = NULL;
+    struct import_value **last = &list->first, **before = NULL;
 
     skip_space(reader);
     while (peek(reader) != ']') {
@@ -395,7 +406,7 @@ static bool read_elements(struct reader *reader, struct import_value *list)
             return false;
         }
         if (*last) {
-            before = *last;
+            before = last;
             last = &(*last)->next;
         }
         *last = read_value(reader);
@@ -405,12 +416,11 @@ static bool read_elements(struct reader *reader, struct import_value *list)
         list->count++;
         skip_space(reader);
         if (peek(reader) == ':' && (*last)->kind == IMPORT_TEXT) {
-            if (!continue_object(reader, list, before, last)) {
+            if (!continue_object(reader, list, before ? *before : NULL, last)) {
                 return false;
             }
             skip_space(reader);
-            for (last = &list->first; (*last)->next; last = &(*last)->next) {
-            }
+            last = before;
         }
     }
     take(reader);

@@ -27,6 +27,8 @@ struct import_value {
     char *text;                        /* line breaks as \n */
     char *name;                        /* as a member of an object */
     struct import_value *first, *next; /* members or elements in order */
+    struct import_value *last;         /* of the members */
+    void *names;                       /* search tree of the members */
     size_t count;
 };
 

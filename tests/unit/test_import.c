@@ -14,6 +14,7 @@
 #include "protocol/import/import.h"
 #include "protocol/import/text.h"
 #include "protocol/json.h"
+#include "protocol/limits.h"
 #include "tests/support/compiled.h"
 #include "tests/support/json_text.h"
 #include "tests/support/text_file.h"
@@ -718,6 +719,67 @@ static void refused_materials(void **state)
     }
 }
 
+/* One node on each line, and the root above them. */
+static void too_many_nodes_are_refused(void **state)
+{
+    char *text, *quoted;
+    size_t length;
+    FILE *out = open_memstream(&text, &length);
+
+    (void)state;
+    fputs("{'scene': [", out);
+    for (int i = 0; i < LIMIT_NODES + 9; i++) {
+        fprintf(out, "%s{'type':'Operations/Union'}", i ? ",\n" : "\n");
+    }
+    fputs("]}", out);
+    fclose(out);
+    quoted = json_text(text);
+    free(text);
+    const struct import_file file = {"s.json", quoted, length};
+    assert_null(convert(&file, 1, NULL));
+    assert_int_equal(err.kind, ERROR_LIMIT);
+    assert_string_equal(err.place, "s.json");
+    assert_int_equal(err.line, LIMIT_NODES + 1);
+    assert_string_equal(err.message, "100001 nodes are above the maximum 100000");
+    free(quoted);
+}
+
+static void too_many_properties_are_refused(void **state)
+{
+    char list[17 * 16] = "", shader[400];
+
+    (void)state;
+    for (int i = 0; i < LIMIT_DECLARED + 1; i++) {
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s'[int] _%d'", i ? "," : "", i);
+    }
+    snprintf(shader, sizeof shader, "{'code': '', 'properties': [%s]}", list);
+    assert_null(import_texts("m.json", "{'base_shader': 's'}", "s.json", shader, NULL));
+    assert_int_equal(err.kind, ERROR_LIMIT);
+    assert_string_equal(err.place, "s.json");
+    assert_int_equal(err.column, 28);
+    assert_string_equal(err.message, "17 properties are above the maximum 16");
+}
+
+/* A name of its own goes before one that a file has by the way. */
+static void names_go_before_others(void **state)
+{
+    static const char model[] = "{'name': 'm', 'model': {'type': 'Primitives/Sphere'}}";
+    static const char other[] = "{'name': 'o', 'model': {'type': 'Primitives/Box'}}";
+
+    (void)state;
+    struct scene *scene =
+        import_texts("a.json", model, "m.json", other, "b.json", model, "s.json",
+                     "{'scene': [{'type': 'Models/m'}, {'type': 'Models/o'}]}", NULL);
+    assert_non_null(scene);
+    for (int i = 0; i < 2; i++) {
+        assert_string_equal(record_text(&scene->root->children[i]->params, "model"), "o");
+    }
+    scene_destroy(scene);
+    assert_null(import_texts("a.json", model, "c.json", other, "b.json", model, "s.json",
+                             "{'scene': [{'type': 'Models/m'}]}", NULL));
+    assert_non_null(strstr(err.message, "\"m\" may be the model of a.json or of b.json"));
+}
+
 static void ambiguous_references_are_refused(void **state)
 {
     static const char empty[] = "{\"name\": \"A\", \"scene\": []}";
@@ -781,6 +843,9 @@ int main(void)
         cmocka_unit_test(commas_and_line_breaks),
         cmocka_unit_test(faulty_files_are_refused),
         cmocka_unit_test(refused_materials),
+        cmocka_unit_test(too_many_nodes_are_refused),
+        cmocka_unit_test(too_many_properties_are_refused),
+        cmocka_unit_test(names_go_before_others),
         cmocka_unit_test(ambiguous_references_are_refused),
         cmocka_unit_test(models_in_a_circle_are_refused),
     };
