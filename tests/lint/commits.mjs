@@ -31,7 +31,7 @@ const VERBS = new Set(
     speak speed spell split spread stage stand start starve state stay step stop store stream strip style submit subtract
     suggest supervise supply support suspend swap switch synchronise sync take teach tell test think throttle
     tidy tie tighten time trace track translate treat trim trust try tune turn type undo unify unite unload unpack
-    update upgrade upload use validate vary verify wait wake walk warm warn watch weigh widen wrap write`.split(/\s+/),
+    update upgrade upload use validate vary verify wait wake walk warm warn watch weigh widen wrap write zoom`.split(/\s+/),
 );
 
 // What is wrong with a subject; undefined: nothing.
