@@ -45,6 +45,15 @@ struct subject {
     bool portrait; /* of the document only the tree counts (renderer/portrait.h) */
 };
 
+/* Whether the file of its environment is there: without it one colour is drawn in its place. */
+static bool has_image(const struct hub *hub, const struct subject *subject)
+{
+    const struct room *room = subject->room;
+    const char *image = room ? record_text(&room->scene->environment, "image") : subject->image;
+
+    return image && asset_index_find(hub->assets, image);
+}
+
 /* The scene's state and the request, as text. */
 static char *make_key(const struct hub *hub, const struct render_request *asked,
                       const struct subject *subject)
@@ -55,8 +64,7 @@ static char *make_key(const struct hub *hub, const struct render_request *asked,
     size_t length = 0;
     FILE *out = open_memstream(&key, &length);
 
-    /* A file that was not there when the picture was drawn may be by now. */
-    fprintf(out, "%s %zu ", text, hub->assets->count);
+    fprintf(out, "%s %d ", text, has_image(hub, subject));
     if (room) {
         fprintf(out, "%s %s %" PRIu64, room->id, room->epoch, room->revision);
     } else {

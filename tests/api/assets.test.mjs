@@ -178,6 +178,25 @@ describe('files that scenes name', () => {
         assert.notDeepEqual(await ask(body.scene), await ask(scene('0'.repeat(64))));
     });
 
+    test('a picture drawn without its file is drawn anew with it, also where another file went', async () => {
+        const [other, late] = [[3, 0, 0], [0, 3, 0]].map((color) => radiance(() => color));
+        const document = scene(digest(late));
+        const draw = (headers = {}) =>
+            fetch(`${daemon.url}/v1/render`, {
+                method: 'POST',
+                headers: { 'content-type': 'application/json', ...headers },
+                body: JSON.stringify({ scene: document, width: 16, height: 16, format: 'png' }),
+            });
+        assert.equal((await send(daemon, other)).status, 201);
+        const before = await draw();
+        const without = Buffer.from(await before.arrayBuffer());
+        assert.equal((await fetch(`${daemon.url}/v1/assets/${digest(other)}`, { method: 'DELETE' })).status, 204);
+        assert.equal((await send(daemon, late)).status, 201);
+        const again = await draw({ 'if-none-match': before.headers.get('etag') });
+        assert.equal(again.status, 200);
+        assert.notDeepEqual(Buffer.from(await again.arrayBuffer()), without);
+    });
+
     test('a damaged file is said to be one, and the one colour stands for it', async () => {
         const cut = sides.subarray(0, sides.length / 2);
         assert.equal((await send(daemon, cut)).status, 201);
