@@ -124,6 +124,16 @@ static int help(const char *topic)
     return EXIT_OK;
 }
 
+/* A command that could not print all has failed, whatever it says itself. */
+static int printed(int status)
+{
+    if (fflush(stdout) == 0 && !ferror(stdout)) {
+        return status;
+    }
+    fputs("fieldcast: stdout: not all could be written\n", stderr);
+    return status == EXIT_OK ? EXIT_FAILED : status;
+}
+
 static int run(const struct command *command, int argc, char **argv)
 {
     struct options options;
@@ -141,7 +151,8 @@ static int run(const struct command *command, int argc, char **argv)
         status = command->run(&options);
     }
     options_finish(&options);
-    return status;
+    /* Who starts a daemon may leave before it ends. */
+    return command_id(command) == COMMAND_SERVE ? status : printed(status);
 }
 
 static bool is(const char *word, const char *a, const char *b)
@@ -158,10 +169,10 @@ int command_main(int argc, char **argv)
     const char *name = argv[1];
     if (is(name, "--version", "version")) {
         puts("fieldcast " FIELDCAST_VERSION);
-        return EXIT_OK;
+        return printed(EXIT_OK);
     }
     if (is(name, "--help", "help") || strcmp(name, "-h") == 0) {
-        return help(argc > 2 ? argv[2] : NULL);
+        return printed(help(argc > 2 ? argv[2] : NULL));
     }
     const struct command *command = command_find(name);
     if (command) {

@@ -65,5 +65,5 @@ int command_shader(const struct options *options)
     }
     free(text);
     scene_destroy(scene);
-    return text && fflush(stdout) == 0 ? EXIT_OK : EXIT_FAILED;
+    return text ? EXIT_OK : EXIT_FAILED;
 }

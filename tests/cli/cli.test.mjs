@@ -82,6 +82,25 @@ test('misuse says what is meant, on stderr, with status 2', () => {
     }
 });
 
+test('what cannot be printed is a failure', () => {
+    const full = fs.openSync('/dev/full', 'w');
+    for (const args of [
+        ['--version'],
+        ['help', 'options'],
+        ['check', '--help'],
+        ['check', 'example:surface-heart'],
+        ['shader', 'example:first-steps'],
+        ['schema'],
+        ['schema', '--reference'],
+        ['groebner', 'x*y - 1'],
+    ]) {
+        const { status, stderr } = spawnSync(program, args, { stdio: ['ignore', full, 'pipe'] });
+        assert.equal(status, 1, args.join(' '));
+        assert.match(String(stderr), /stdout: not all could be written/, args.join(' '));
+    }
+    fs.closeSync(full);
+});
+
 test('check names file, place and rule', () => {
     const good = write('good.json', SPHERE);
     const bad = write(
