@@ -9,6 +9,7 @@
 #include <ftw.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -72,8 +73,30 @@ static bool is_special(const char *path)
     return stat(path, &status) == 0 && !S_ISREG(status.st_mode);
 }
 
+/* It goes with the process, whatever ends that. -1: the file system has no such files, or there is
+ * no way to name one later. */
+static int open_nameless(const char *path)
+{
+    char *folder = memory_text(path), *slash = strrchr(folder, '/');
+
+    if (slash) {
+        slash[slash == folder] = '\0';
+    }
+    const int fd = access("/proc/self/fd", X_OK) == 0
+                       ? open(slash ? folder : ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600)
+                       : -1;
+    free(folder);
+    return fd;
+}
+
 static int open_temporary(struct file_writer *writer)
 {
+    const int fd = open_nameless(writer->path);
+
+    writer->nameless = fd >= 0;
+    if (writer->nameless) {
+        return fd;
+    }
     if (asprintf(&writer->temporary, "%s.XXXXXX", writer->path) < 0) {
         abort();
     }
@@ -111,12 +134,42 @@ static bool finish_temporary(FILE *file)
     return fchmod(fileno(file), 0666 & ~mask) == 0 && fsync(fileno(file)) == 0;
 }
 
+/* rename() replaces a file, linkat() does not: so there is a name in between. */
+static bool give_name(struct file_writer *writer)
+{
+    enum { TRIES = 100 };
+    char own[32];
+
+    snprintf(own, sizeof own, "/proc/self/fd/%d", fileno(writer->file));
+    for (int i = 0; i < TRIES; i++) {
+        unsigned number = 0;
+        char *name = NULL;
+
+        if (getrandom(&number, sizeof number, 0) != sizeof number ||
+            asprintf(&name, "%s.%08x", writer->path, number) < 0) {
+            abort();
+        }
+        if (linkat(AT_FDCWD, own, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0) {
+            writer->temporary = name;
+            return true;
+        }
+        const int reason = errno;
+        free(name);
+        errno = reason;
+        if (reason != EEXIST) {
+            break;
+        }
+    }
+    return false;
+}
+
 bool file_writer_close(struct file_writer *writer, bool whole, struct error *err)
 {
     bool ok = fflush(writer->file) == 0 && !ferror(writer->file);
 
-    if (writer->temporary) {
+    if (writer->nameless || writer->temporary) {
         ok = whole && ok && finish_temporary(writer->file) &&
+             (writer->temporary || give_name(writer)) &&
              rename(writer->temporary, writer->path) == 0;
     }
     if (whole && !ok) {

@@ -13,11 +13,13 @@
  * place is `path`) on failure. Caller frees. */
 char *file_read(const char *path, size_t limit, size_t *out_length, struct error *err);
 
-/* Writes a file beside `path` and renames it when it is complete, so `path` is never incomplete.
- * "-" is stdout. A pipe or a device is written in place. */
+/* Writes a file without a name and gives it that of `path` when it is complete, so `path` is never
+ * incomplete and nothing is left of a process that was ended. On file systems without such files it
+ * is one beside `path`. "-" is stdout. A pipe or a device is written in place. */
 struct file_writer {
     FILE *file;
-    char *path, *temporary; /* both NULL: written in place */
+    char *path, *temporary; /* the second is NULL while there is no such name */
+    bool nameless;          /* false, and no `temporary`: written in place */
 };
 bool file_writer_open(struct file_writer *writer, const char *path, struct error *err);
 /* Closes the file. Pass `whole` as false after a failure; then `path` stays unchanged. */
