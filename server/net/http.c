@@ -49,6 +49,7 @@ struct exchange {
     struct header *headers, **headers_end; /* copies, in their order */
     bool begun, counted;                   /* admitted; among http->pending */
     bool handled;                          /* was given to its handler */
+    bool heavy, again;                     /* as a heavy task; the handler wants to be one */
     struct body body;
     size_t body_bytes; /* seen, kept or not */
     int64_t deadline;
@@ -399,11 +400,38 @@ static enum MHD_Result refuse_body(struct exchange *exchange)
     return answer_now(exchange, &response);
 }
 
+bool request_becomes_heavy(struct request *request)
+{
+    struct exchange *exchange = (struct exchange *)request;
+
+    exchange->again = exchange->handling && !exchange->heavy;
+    return exchange->again;
+}
+
+static void run_handler(void *data, bool dropped);
+
+static bool add_task(struct exchange *exchange, bool heavy, struct error *err)
+{
+    const bool named = exchange->route->scene == SCENE_NAMED;
+
+    exchange->heavy = heavy;
+    exchange->again = false;
+    return tasks_add(exchange->http->app.tasks,
+                     &(struct task_order){.scene = named ? exchange->request.capture[0] : "",
+                                          .account = exchange->request.client,
+                                          .heavy = heavy,
+                                          .bounded = true,
+                                          .run = run_handler,
+                                          .data = exchange},
+                     err);
+}
+
 /* On a thread of the tasks. */
 static void run_handler(void *data, bool dropped)
 {
     struct exchange *exchange = data;
     struct http *http = exchange->http;
+    struct error err = {0};
 
     if (dropped) {
         struct response response =
@@ -411,31 +439,34 @@ static void run_handler(void *data, bool dropped)
         request_reply(&exchange->request, &response);
     } else {
         exchange->route->handle(&exchange->request);
+        if (exchange->again) {
+            if (add_task(exchange, true, &err)) {
+                return; /* another thread may have it by now */
+            }
+            request_reply_error(&exchange->request, &err);
+        }
     }
     pthread_mutex_lock(&http->lock);
     exchange->handling = false;
     settle(exchange);
 }
 
-static void hand_over(struct exchange *exchange)
+static bool is_heavy(const struct exchange *exchange)
 {
     const struct http_app *app = &exchange->http->app;
-    const bool named = exchange->route->scene == SCENE_NAMED;
-    const char *id = named ? exchange->request.capture[0] : "";
+    const enum route_scene scene = exchange->route->scene;
+
+    return exchange->request.body_length > TASK_LIGHT_BYTES || scene == SCENE_ALL ||
+           scene == SCENE_JUDGED ||
+           (scene == SCENE_NAMED && app->scene_is_heavy(app->hub, exchange->request.capture[0]));
+}
+
+static void hand_over(struct exchange *exchange)
+{
     struct error err = {0};
 
     exchange->handling = true;
-    if (!tasks_add(app->tasks,
-                   &(struct task_order){.scene = id,
-                                        .account = exchange->request.client,
-                                        .heavy = exchange->request.body_length > TASK_LIGHT_BYTES ||
-                                                 exchange->route->scene == SCENE_ALL ||
-                                                 exchange->route->scene == SCENE_JUDGED ||
-                                                 (named && app->scene_is_heavy(app->hub, id)),
-                                        .bounded = true,
-                                        .run = run_handler,
-                                        .data = exchange},
-                   &err)) {
+    if (!add_task(exchange, is_heavy(exchange), &err)) {
         exchange->handling = false;
         request_reply_error(&exchange->request, &err);
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What does not depend on the HTTP library; request_reply and request_on_gone are http.c's. */
+/* What does not depend on the HTTP library; what needs the connection is in http.c. */
 #include "request.h"
 
 #include <stdarg.h>

@@ -68,6 +68,9 @@ void request_reply_json(struct request *request, int status, cJSON *json);
 /* `gone` is called under the hub's lock when the client leaves before the answer, unless its
  * connection has ended by now. Such requests have to be answered under the hub's lock. */
 void request_on_gone(struct request *request, void (*gone)(void *data), void *data);
+/* For a handler that finds much to do which its route did not tell: if true, it returns without an
+ * answer and is called again, from its beginning, as a heavy task. False: it is one, or none. */
+bool request_becomes_heavy(struct request *request);
 
 void response_add(struct response *response, const char *name, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

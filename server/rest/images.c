@@ -200,8 +200,11 @@ static void order(struct request *request, struct render_request *asked,
 static void order_of_room(struct request *request, struct render_request *asked, const char *id)
 {
     struct error err = {0};
-    struct room *room = hub_lock_room(request->hub, id, &err);
 
+    if (hub_scene_is_heavy(request->hub, id) && request_becomes_heavy(request)) {
+        return;
+    }
+    struct room *room = hub_lock_room(request->hub, id, &err);
     if (!room) {
         request_reply_error(request, &err);
         return;

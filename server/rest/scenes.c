@@ -261,6 +261,14 @@ static struct scene *scene_from(struct hub *hub, const cJSON *json, struct error
     return NULL;
 }
 
+/* Whether a large scene is copied: that takes as long as printing it, or reading it. */
+static bool copies_much(struct hub *hub, const cJSON *json)
+{
+    const char *from = json_member_text(json, "from", "");
+
+    return strncmp(from, "scene:", 6) == 0 && hub_scene_is_heavy(hub, from + 6);
+}
+
 /* Of what a new scene is made. */
 static struct shared_buffer *poster_from(struct hub *hub, const cJSON *json)
 {
@@ -283,6 +291,10 @@ void scenes_create(struct request *request)
 
     if (request_check_query(request, queries, &err)) {
         json = json_parse(request->body ? request->body : "", request->body_length, &err);
+        if (json && copies_much(request->hub, json) && request_becomes_heavy(request)) {
+            cJSON_Delete(json);
+            return;
+        }
         scene = json ? scene_from(request->hub, json, &err) : NULL;
         poster = scene ? poster_from(request->hub, json) : NULL;
     }

@@ -9,6 +9,7 @@ import { largeDocument } from '../support/large.mjs';
 import { Live } from '../support/live.mjs';
 
 const SHARE = 16; // large documents of one client that may wait
+const LARGE = 4200; // nodes, a few more than are light
 const NODES = 30_000; // of a large document
 const MANY = 3000; // operations of a large edit
 const ball = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
@@ -247,6 +248,29 @@ test('one client has no more than its share of large documents waiting', async (
     const problem = await refused[0].json();
     assert.equal(problem.code, 'share');
     assert.match(problem.detail, new RegExp(`^${SHARE} large tasks of this client wait already; the limit is ${SHARE}$`));
+});
+
+test('nor of copies and pictures of large scenes that a body names', async () => {
+    assert.ok((await put('original', largeDocument(LARGE))).ok);
+    for (const [at, body, done] of [
+        ['scenes', { from: 'scene:original' }, 201],
+        ['render', { scene: 'original', width: 8, height: 8 }, 200],
+    ]) {
+        const work = () =>
+            fetch(`${daemon.url}/v1/${at}`, {
+                method: 'POST',
+                headers: { 'content-type': 'application/json' },
+                body: JSON.stringify(body),
+            });
+        const first = put('largest', largeDocument(3 * NODES));
+        await until(async () => (await counter(daemon, 'documents_waiting')) === 1, 'the first to be read');
+        const refused = await counter(daemon, 'documents_over_share_total');
+        const answers = await Promise.all(Array.from({ length: SHARE + 8 }, work));
+        assert.ok((await first).ok);
+        assert.ok((await counter(daemon, 'documents_over_share_total')) > refused, at);
+        const statuses = answers.map(({ status }) => status);
+        assert.ok(statuses.every((status) => status === 429 || status === done), `${statuses}`);
+    }
 });
 
 /** Processor time of a process outside the kernel. */
