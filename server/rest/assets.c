@@ -189,7 +189,8 @@ void assets_create(struct request *request)
     free(asset);
 }
 
-/* What a file is named by never changes. */
+/* What a file is named by never changes. Only clients keep it: a cache that several share does not
+ * ask them for the token. */
 void assets_read(struct request *request)
 {
     struct hub *hub = request->hub;
@@ -216,7 +217,7 @@ void assets_read(struct request *request)
         return;
     }
     response.type = type;
-    response_add(&response, "Cache-Control", "public, max-age=31536000, immutable");
+    response_add(&response, "Cache-Control", "private, max-age=31536000, immutable");
     request_reply(request, &response);
 }
 

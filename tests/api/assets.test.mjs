@@ -265,7 +265,7 @@ describe('files that scenes name', () => {
     });
 });
 
-test('without the token nothing is taken', async () => {
+test('without the token nothing is taken or given', async () => {
     const directory = makeDirectory();
     const file = path.join(directory, 'token');
     fs.writeFileSync(file, 'a-token-that-only-tests-know\n', { mode: 0o600 });
@@ -273,6 +273,11 @@ test('without the token nothing is taken', async () => {
     assert.equal((await send(daemon, sides)).status, 401);
     const headers = { authorization: 'Bearer a-token-that-only-tests-know' };
     assert.equal((await send(daemon, sides, headers)).status, 201);
+    const at = `${daemon.url}/v1/assets/${digest(sides)}`;
+    assert.equal((await fetch(at)).status, 401);
+    const answer = await fetch(at, { headers });
+    assert.equal(answer.status, 200);
+    assert.match(answer.headers.get('cache-control'), /^private\b/, 'no shared cache keeps it for others');
     await daemon.stop();
     removeDirectory(directory);
 });
