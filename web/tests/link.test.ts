@@ -106,14 +106,3 @@ test("what a scene that was left is refused for does not close the next one", as
     expect(stores.link.getState().connection).toBe("live");
     expect(second.readyState).toBe(FakeSocket.OPEN);
 });
-
-test("a text of too many bytes is not sent", async () => {
-    const limits = [{ name: "name_bytes", value: 3, unit: "bytes", doc: "" }];
-    link.connect("a", { ...SCHEMA, limits }, AUTHOR);
-    const { socket } = await greeting(1);
-    socket.welcome(4);
-    socket.say({ type: "document", revision: 4, document: SCENE });
-    expect(link.edit([{ op: "set", at: "/nodes/body/name", value: "äö" }])).toBe(false);
-    expect(link.edit([{ op: "set", at: "/nodes/body/name", value: "äo" }])).toBe(true);
-    expect(socket.sent.filter(({ type }) => type === "edit")).toHaveLength(1);
-});

@@ -20,7 +20,7 @@ import * as sessions from "../model/session.ts";
 import { EMPTY_DOCUMENT_STATE, IDLE_LINK, type LinkState, type Stores } from "../model/stores.ts";
 import { text } from "../model/texts.ts";
 import { vectorOf } from "../model/transform.ts";
-import { checkText, checkValue } from "../model/values.ts";
+import { checkValue } from "../model/values.ts";
 import { selectAfter } from "../model/view.ts";
 import { type Author, randomId } from "./author.ts";
 import type { Report } from "./engine.ts";
@@ -594,10 +594,7 @@ function checkRanges(session: sessions.Session, ops: readonly Operation[]): Prob
             continue;
         }
         const found = paramAt(session.schema, session.shown, op.at);
-        const value = op.value as Value;
-        const message =
-            found &&
-            (checkValue(found.param, value) ?? checkText(session.schema, found.param, value));
+        const message = found && checkValue(found.param, op.value as Value);
         if (message) {
             return { code: "invalid", place: op.at, message };
         }
