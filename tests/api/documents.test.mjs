@@ -229,7 +229,9 @@ test('an edit that was received is applied, though its client has left', async (
     await until(() => seen.messages.some((m) => m.type === 'changed') || live.find('applied'), 'the edit to begin');
     live.change(setAll(0.65));
     live.socket.end();
-    await until(async () => (await ask(daemon, 'GET', '/v1/scenes')).scenes.find(({ id }) => id === 'many').revision >= revision + 1, 'the edit');
+    await until(async () => (await ask(daemon, 'GET', '/v1/scenes')).scenes.find(({ id }) => id === 'many').revision === revision + 2, 'both edits');
+    await seen.next('changed', { revision: revision + 2 });
+    assert.ok(seen.find('changed', { revision: revision + 2 }).ops.every(({ value }) => value === 0.65));
     await until(async () => (await ask(daemon, 'GET', '/v1/scenes')).scenes.find(({ id }) => id === 'many').viewers === 1, 'the client to be gone');
     await seen.close();
 });

@@ -46,6 +46,12 @@ const select = (node) => row(page, node).click();
 const placeOf = (document, node) => nodeIn(document, node).transform?.translation ?? [0, 0, 0];
 const when = (holds, what) => documentWhen(stage, id, holds, what);
 
+/** By which angle Rz·Ry·Rx turns: twice that of its quaternion's real part. */
+function angleOf(rotation) {
+    const product = (of) => rotation.reduce((all, angle) => all * of(angle / 2), 1);
+    return 2 * Math.acos(Math.abs(product(Math.cos) + product(Math.sin)));
+}
+
 /** How often the page has begun to draw on the canvas of the hands; counted from the first call on. */
 const drawings = () =>
     page.getByTestId('hands').evaluate(async (canvas) => {
@@ -121,7 +127,10 @@ describe('the gizmo', () => {
             const steps = Math.hypot(...nodeIn(d, 'crate').transform.rotation) / (Math.PI / 12);
             return steps > 0.9;
         }, 'a crate turned by a step');
-        assert.deepEqual(nodeIn(document, 'crate').transform.translation, [1.5, 0, 0]);
+        const { rotation, translation } = nodeIn(document, 'crate').transform;
+        const steps = angleOf(rotation) / (Math.PI / 12);
+        assert.ok(Math.abs(steps - Math.round(steps)) < 1e-3, `${steps} steps`);
+        assert.deepEqual(translation, [1.5, 0, 0]);
     });
 
     test('with Ctrl, a move is drawn to the middle of another shape, or goes in steps', async () => {

@@ -380,7 +380,7 @@ describe('by keys alone', () => {
                 if ((await radius.count()) === 0) {
                     await press('Enter');
                 }
-                assert.ok(await editTab.getAttribute('aria-selected'));
+                assert.equal(await editTab.getAttribute('aria-selected'), 'true');
             }
             await onto(radius, 'the focus in the field of the radius');
             await page.keyboard.press('Control+a');
