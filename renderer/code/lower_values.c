@@ -29,7 +29,9 @@ static uint16_t converted(struct lower *lower, const struct expr *arg, enum base
 static uint16_t lower_matrix(struct lower *lower, const struct expr *expr)
 {
     const int size = expr->type.rows, own = expr->args->type.columns;
-    const uint16_t from = lower_value(lower, expr->args), out = lower_alloc(lower, size * size);
+    const uint16_t from =
+        own == 1 ? converted(lower, expr->args, BASE_FLOAT) : lower_value(lower, expr->args);
+    const uint16_t out = lower_alloc(lower, size * size);
     double identity[16] = {0};
 
     for (int i = 0; i < size; i++) {

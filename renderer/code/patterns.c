@@ -26,9 +26,10 @@ static bool is_place(const double *p)
     return fabs(p[0]) < 1e30 && fabs(p[1]) < 1e30 && fabs(p[2]) < 1e30;
 }
 
+/* There is a wall at 0.5, too. */
 double pattern_stripes(double x)
 {
-    return wrap(between_walls(x), 1) < 0.5 ? 0 : 1;
+    return wrap(x - copysign(PATTERN_WALL, x - 0.25), 1) < 0.5 ? 0 : 1;
 }
 
 void pattern_noise(double *out, const double *const in[], int n)

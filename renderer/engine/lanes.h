@@ -313,10 +313,12 @@ LANES_INLINE vu vu_of_b(vb x)
 {
     return (vu)(x & 1);
 }
-/* Up to 2^31. */
+/* Up to 2^32. */
 LANES_INLINE vu vu_of_f(vf x)
 {
-    return (vu) __builtin_convertvector(x, vi);
+    const vb high = x >= 2147483648.0f;
+    const vf low = vf_select(high, x - 2147483648.0f, x);
+    return (vu)(__builtin_convertvector(low, vi) ^ (high & (int)0x80000000));
 }
 LANES_INLINE vb vb_of_i(vi x)
 {
@@ -418,9 +420,12 @@ LANES_INLINE vf vf_pow(vf x, vf y)
     return vf_select((x == 0.0f) & (y > 0.0f), vf_zero, value);
 }
 
-/* Sine and cosine of an angle below 8192. */
+/* Sine and cosine. Of an angle beyond 8192, of which a float has few digits, they are those of some
+ * angle. */
 LANES_INLINE void lanes_sincos(vf x, vf *out_sin, vf *out_cos)
 {
+    const vf rest = x - vf_round(x * 0.159154943f) * 6.28318531f;
+    x = vf_select(vf_abs(x) > 8192.0f, vf_clamp(rest, vf_all(-8192.0f), vf_all(8192.0f)), x);
     vf size = vf_abs(x);
     vi octant = vi_of_f(size * 1.27323954473516f);
     octant = (octant + 1) & ~1;
@@ -535,7 +540,7 @@ LANES_INLINE unsigned u_of_i(int x)
 }
 LANES_INLINE unsigned u_of_f(float x)
 {
-    return (unsigned)(int)x;
+    return x >= 2147483648.0f ? (unsigned)(int)(x - 2147483648.0f) ^ 0x80000000u : (unsigned)(int)x;
 }
 LANES_INLINE float f_min(float a, float b)
 {

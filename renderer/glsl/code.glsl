@@ -29,7 +29,7 @@
     T code_atanh(T x) { return atanh(clamp(x, -0.9999, 0.9999)); }                                 \
     T code_atan(T y, T x) { return atan(y, x + step(abs(x) + abs(y), T(0.0))); }                   \
     T code_between_walls(T x) { return x - CODE_WALL * sign(x - 0.5); }                            \
-    T code_stripes(T x) { return step(0.5, fract(code_between_walls(x))); }                        \
+    T code_stripes(T x) { return step(0.5, fract(x - CODE_WALL * sign(x - 0.25))); }               \
     T code_saturate(T x) { return clamp(x, 0.0, 1.0); }                                            \
     T code_normalize(T x) { return x * inversesqrt(max(dot(x, x), CODE_TINY)); }                   \
     T code_mod(T x, T y)                                                                           \

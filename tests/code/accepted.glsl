@@ -55,6 +55,12 @@ float sdf(vec3 p)
     uint b = uint(-abs(p.y) - 1.0);
     return float(a > 2147483000) + float(b) + float(int(uint(-1)));
 }
+//! large_whole_numbers
+float sdf(vec3 p) { return float(uint(abs(p.x) * 1e9 + 2.2e9) > 2600000000u); }
+//! large_angles
+float sdf(vec3 p) { return float(abs(sin(p.x * 2e9)) <= 1.0) + float(abs(cos(p.y * 3e12)) <= 1.0); }
+//! stripes_have_one_line_at_a_half
+float sdf(vec3 p) { return stripes(0.49 + 0.0 * p.x) + 2.0 * stripes(0.53 + 0.0 * p.y); }
 //! one_for_all
 float sdf(vec3 p) { vec3 v = 0.5; v += 1; return dot(v, p) + (v / 2.0).x; }
 //! matrix_times_vector
@@ -83,6 +89,8 @@ float sdf(vec3 p)
     mat2 n = mat2(mat4(p.y));
     return m[0][0] + m[2][2] + n[1][1];
 }
+//! matrix_of_whole_numbers
+float sdf(vec3 p) { return mat3(int(p.x * 3.0))[1][1] + mat2(p.x > 0.0)[0][0]; }
 //! matrix_columns
 float sdf(vec3 p)
 {

@@ -136,6 +136,9 @@ static double octaves(double x, double y, double z)
     X(conversions, trunc(x * 3) + 4) \
     X(vector_conversions, 2 * trunc(x * 2) + 10 * trunc(y * 2) + trunc(z * 2)) \
     X(conversions_keep_inside, 0 * (x + y + z)) \
+    X(large_whole_numbers, fabs(x) > 0.4) \
+    X(large_angles, 0 * (x + y + z) + 2) \
+    X(stripes_have_one_line_at_a_half, 0 * (x + y + z) + 2) \
     X(one_for_all, 1.5 * (x + y + z) + 0.75) \
     X(matrix_times_vector, x + 3 * y - (2 * x + 4 * y)) \
     X(vector_times_matrix, x + 2 * y - (3 * x + 4 * y)) \
@@ -143,6 +146,7 @@ static double octaves(double x, double y, double z)
     X(matrix_times_matrix, 2 * x + 4 + x + 3) \
     X(matrix_with_numbers, 2 * x + 0.5 - 3 * x + 1 + 10 * (2 * y + 1)) \
     X(matrix_of_matrix, x + 1 + y) \
+    X(matrix_of_whole_numbers, trunc(3 * x) + (x > 0)) \
     X(matrix_columns, y + 2) \
     X(rows_of_hlsl, 4 * x + 5 * y + 6 * z + (x + 4 * y + 7 * z) + 6) \
     X(product_of_hlsl, 6 + 2 * x + 3 * (5 * x + 6 * y) + 4 * (7 * x + x * y)) \
