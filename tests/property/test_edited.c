@@ -23,6 +23,7 @@ enum {
     TWISTED = 1000,
     FEW = 30,
     APART = 8,
+    OTHERS = 2048,
     MOVES = 3,
     LARGER = 4,
     EDITS_OF_MANY = 24,
@@ -223,6 +224,16 @@ static void a_moved_mirror_moves_what_is_in_it(void **state)
     resident_destroy(pair.forgotten);
 }
 
+/* Balls that are not seen, so that an edit changes few of all operations. */
+static void write_far_off(char out[OTHERS])
+{
+    for (int i = 0; i < FEW; i++) {
+        const size_t length = strlen(out);
+        snprintf(out + length, OTHERS - length,
+                 "%s{'type':'sphere','transform':{'translation':[%d,0,-90]}}", i > 0 ? "," : "", i);
+    }
+}
+
 /* Deep in the box both take the second operand alone, but one negates it. What was seen from below
  * is seen from above. */
 static void an_intersection_becomes_a_difference(void **state)
@@ -239,15 +250,11 @@ static void an_intersection_becomes_a_difference(void **state)
         "{'type':'cylinder','params':{'radius':3,'height':30},'transform':{'translation':[1,0,0]}},"
         "{'type':'cylinder','params':{'radius':3,'height':30},'transform':{'translation':[0,0,1]}}";
     static const char *const types[] = {"difference", "intersection", "difference"};
-    char others[2048] = "", text[4096];
+    char others[OTHERS] = "", text[4096];
     struct job_desc desc = desc_of(0);
 
     (void)state;
-    for (int i = 0; i < FEW; i++) {
-        const size_t length = strlen(others);
-        snprintf(others + length, sizeof others - length,
-                 "%s{'type':'sphere','transform':{'translation':[%d,0,-90]}}", i > 0 ? "," : "", i);
-    }
+    write_far_off(others);
     snprintf(text, sizeof text, scene, "intersection", holes, others);
     const struct pair pair = pair_of(json_text_valid_scene(text), &desc);
     for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
@@ -271,15 +278,11 @@ static void an_intersection_becomes_a_union(void **state)
         "{'id':'both','type':'intersection','children':["
         "{'type':'sphere','params':{'radius':0.7}},{'type':'sphere','params':{'radius':0.3},"
         "'transform':{'translation':[0,%g,0]}}]}]}}";
-    char others[2048] = "", text[4096];
+    char others[OTHERS] = "", text[4096];
     struct job_desc desc = desc_of(0);
 
     (void)state;
-    for (int i = 0; i < FEW; i++) {
-        const size_t length = strlen(others);
-        snprintf(others + length, sizeof others - length,
-                 "%s{'type':'sphere','transform':{'translation':[%d,0,-90]}}", i > 0 ? "," : "", i);
-    }
+    write_far_off(others);
     for (int i = 0; i < APART; i++) {
         snprintf(text, sizeof text, scene, others, 1 + 0.2 * i);
         const struct pair pair = pair_of(json_text_valid_scene(text), &desc);
