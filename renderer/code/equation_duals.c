@@ -128,8 +128,8 @@ static void write_dual_power(const struct equation_writer *w, const struct equat
     snprintf(exponent, sizeof exponent, varies(w, b) ? "g%d.w" : "s%d", b);
     fprintf(w->out, "vec4(");
     if (varies(w, a)) {
-        fprintf(w->out, "g%d.xyz * (%s * pow(max(%s, 1e-18), %s - 1.0))", a, exponent, base,
-                exponent);
+        fprintf(w->out, "g%d.xyz * (%s > 1e-18 ? %s * pow(%s, %s - 1.0) : 0.0)", a, base, exponent,
+                base, exponent);
     }
     if (varies(w, b)) {
         fprintf(w->out, "%sg%d.xyz * (log(max(%s, 1e-18)) * pow(max(%s, 1e-18), %s))",

@@ -42,20 +42,20 @@ const struct equation_rule equation_rules[EQUATION_FUNCTIONS] = {
                       "    }\n"
                       "    return vec4(value, 1.0 + s * s);\n"
                       "}\n"},
-    [EQUATION_ASIN] = {"asin($)", "inversesqrt(max(1.0 - $ * $, 1e-18))",
+    [EQUATION_ASIN] = {"asin($)", "(abs($) < 1.0 ? inversesqrt(1.0 - $ * $) : 0.0)",
                        "vec4 range_asin(vec2 x)\n"
                        "{\n"
                        "    vec2 y = clamp(x, -1.0, 1.0), s = sizes(y);\n"
                        "    vec2 slope = inversesqrt(max(1.0 - s * s, 1e-18));\n"
-                       "    slope.x = y == x ? slope.x : 0.0;\n"
+                       "    slope *= step(sizes(x).yx, vec2(1.0));\n"
                        "    return vec4(asin(y), slope);\n"
                        "}\n"},
-    [EQUATION_ACOS] = {"acos($)", "(-inversesqrt(max(1.0 - $ * $, 1e-18)))",
+    [EQUATION_ACOS] = {"acos($)", "(abs($) < 1.0 ? -inversesqrt(1.0 - $ * $) : 0.0)",
                        "vec4 range_acos(vec2 x)\n"
                        "{\n"
                        "    vec2 y = clamp(x, -1.0, 1.0), s = sizes(y);\n"
                        "    vec2 slope = inversesqrt(max(1.0 - s * s, 1e-18));\n"
-                       "    slope.x = y == x ? slope.x : 0.0;\n"
+                       "    slope *= step(sizes(x).yx, vec2(1.0));\n"
                        "    return vec4(acos(y).yx, -slope.yx);\n"
                        "}\n"},
     [EQUATION_ATAN] = {"atan($)", "(1.0 / (1.0 + $ * $))",
@@ -83,19 +83,17 @@ const struct equation_rule equation_rules[EQUATION_FUNCTIONS] = {
                        "    return vec4(value, slope.yx);\n"
                        "}\n"},
     [EQUATION_EXP] = {"exp(min($, 40.0))", "exp(min($, 40.0))", ""},
-    [EQUATION_LOG] = {"log(max($, 1e-18))", "(1.0 / max($, 1e-18))",
+    [EQUATION_LOG] = {"log(max($, 1e-18))", "($ > 1e-18 ? 1.0 / $ : 0.0)",
                       "vec4 range_log(vec2 x)\n"
                       "{\n"
                       "    vec2 y = max(x, 1e-18), slope = 1.0 / y;\n"
-                      "    slope.y = y.x > x.x ? 0.0 : slope.y;\n"
-                      "    return vec4(log(y), slope.yx);\n"
+                      "    return vec4(log(y), slope.yx * step(1e-18, x));\n"
                       "}\n"},
-    [EQUATION_SQRT] = {"sqrt(max($, 0.0))", "(0.5 * inversesqrt(max($, 1e-18)))",
+    [EQUATION_SQRT] = {"sqrt(max($, 0.0))", "($ > 0.0 ? 0.5 * inversesqrt(max($, 1e-18)) : 0.0)",
                        "vec4 range_sqrt(vec2 x)\n"
                        "{\n"
                        "    vec2 y = max(x, 1e-18), slope = 0.5 * inversesqrt(y);\n"
-                       "    slope.y = y.x > x.x ? 0.0 : slope.y;\n"
-                       "    return vec4(sqrt(max(x, 0.0)), slope.yx);\n"
+                       "    return vec4(sqrt(max(x, 0.0)), slope.yx * step(0.0, x));\n"
                        "}\n"},
     [EQUATION_CBRT] = {"(sign($) * pow(abs($), 0.3333333333))",
                        "(0.3333333333 * pow(max(abs($), 1e-18), -0.6666666667))",

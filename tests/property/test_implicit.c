@@ -66,6 +66,9 @@ static const struct {
     {EQUATION_FUNCTIONS, "2^x - y^5*z + (y^2 + 1)^x = 1.5"},
     {EQUATION_FUNCTIONS, "1/(x^2 + 0.2) + 1/(y^2 + 0.3) > 3 - z/(2 + y)"},
     {EQUATION_FUNCTIONS, "x^18 + y^17*z - z^16 + x = 0.3"},
+    /* Most of these points are outside of a domain. */
+    {EQUATION_FUNCTIONS, "asin(2z) - log(x) = y"},
+    {EQUATION_FUNCTIONS, "acos(3x) - sqrt(y) < z^a + 0.5"},
 };
 enum { EQUATIONS = sizeof equations / sizeof equations[0] };
 
@@ -569,6 +572,26 @@ static void ranges_hold_values_and_slopes(void **state)
     }
 }
 
+/* Boxes there are as large as the step that their slope allows. */
+static void nothing_changes_outside_of_a_domain(void **state)
+{
+    static const struct {
+        enum equation_name name;
+        double outside;
+    } rows[] = {{EQUATION_LOG, -0.5}, {EQUATION_SQRT, -0.5}, {EQUATION_ASIN, -1.5},
+                {EQUATION_ASIN, 1.5}, {EQUATION_ACOS, -1.5}, {EQUATION_ACOS, 1.5}};
+    (void)state;
+
+    for (size_t r = 0; r < sizeof rows / sizeof rows[0]; r++) {
+        const double p[3] = {rows[r].outside, 0, 0}, half[2] = {0.4, 0};
+        struct code *code = range_code(rows[r].name);
+        for (int i = 2; i < 4; i++) {
+            assert_float_equal(range_of(code, p, half, i), 0, 0);
+        }
+        code_destroy(code);
+    }
+}
+
 /* --- gradients --- */
 
 /* The function's gradient and value by itself, one of the four numbers at a time. */
@@ -826,6 +849,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_function_has_a_row),
         cmocka_unit_test(ranges_hold_values_and_slopes),
+        cmocka_unit_test(nothing_changes_outside_of_a_domain),
         cmocka_unit_test(gradients_are_those_of_differences),
         cmocka_unit_test(the_sign_holds_within_the_distance),
         cmocka_unit_test(distances_to_round_hold_the_sign),
