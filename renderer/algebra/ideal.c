@@ -144,8 +144,14 @@ static bool leaf(void *data, const struct equation_node *node, struct fraction *
     return true;
 }
 
+static bool check_prime(const struct ideal *ideal, const fmpz_t denominator, struct error *err)
+{
+    return !ideal->prime || fmpz_fdiv_ui(denominator, ideal->prime) != 0 ||
+           error_set(err, ERROR_INVALID, "", "a denominator is 0 modulo %lu", ideal->prime);
+}
+
 static bool subtract_sides(const struct reading *r, const struct equation *equation,
-                           fmpz_mpoly_t out)
+                           fmpz_mpoly_t out, fmpz_t out_denominator)
 {
     const fmpz_mpoly_ctx_struct *ring = r->ideal->plain;
     const struct expression e = {equation, ring, leaf, (void *)r, r->err};
@@ -162,14 +168,18 @@ static bool subtract_sides(const struct reading *r, const struct equation *equat
         ok = error_set(r->err, ERROR_INVALID, "",
                        "a fraction is no polynomial: multiply by its denominator");
     }
+    if (ok) {
+        fmpz_mpoly_get_fmpz(out_denominator, left.under, ring);
+        ok = check_prime(r->ideal, out_denominator, r->err);
+    }
     fmpz_mpoly_swap(out, left.over, ring);
     fraction_clear(&left, ring), fraction_clear(&right, ring);
     return ok;
 }
 
-/* `line`: where the polynomial stands in the text. */
+/* `line`: where the polynomial stands in the text. Its value is `out` / `out_denominator`. */
 static bool read_polynomial(const struct ideal *ideal, const char *text, int line, fmpz_mpoly_t out,
-                            struct error *err)
+                            fmpz_t out_denominator, struct error *err)
 {
     struct equation_errors errors = {0};
     struct reading r = {ideal, err};
@@ -179,7 +189,7 @@ static bool read_polynomial(const struct ideal *ideal, const char *text, int lin
         return equation_errors_tell(&errors, ERROR_INVALID, "", err);
     }
     const bool ok = equation->relation == EQUATION_EQUALS
-                        ? subtract_sides(&r, equation, out)
+                        ? subtract_sides(&r, equation, out, out_denominator)
                         : error_set(err, ERROR_INVALID, "", "an inequality is no polynomial");
     free(equation);
     if (!ok) {
@@ -195,8 +205,13 @@ static bool add_generator(struct ideal *out, const char *text, int line, struct 
         return error_set(err, ERROR_LIMIT, "", "more than %d polynomials (groebner_generators)",
                          LIMIT_GROEBNER_GENERATORS);
     }
+    fmpz_t denominator; /* a multiple generates the same */
+    fmpz_init(denominator);
     fmpz_mpoly_init(out->generators[out->count], out->plain);
-    return read_polynomial(out, text, line, out->generators[out->count++], err);
+    const bool ok =
+        read_polynomial(out, text, line, out->generators[out->count++], denominator, err);
+    fmpz_clear(denominator);
+    return ok;
 }
 
 /* Each line of the text that is not empty. Those in front of it become spaces, so that errors tell
@@ -224,7 +239,7 @@ static bool read_generators(struct ideal *out, const char *all, struct error *er
 static bool read_dividend(struct ideal *out, const char *text, struct error *err)
 {
     out->divides = text[0] != '\0';
-    return !out->divides || read_polynomial(out, text, 1, out->dividend, err) ||
+    return !out->divides || read_polynomial(out, text, 1, out->dividend, out->denominator, err) ||
            fail_at(err, "/divide");
 }
 
@@ -237,6 +252,7 @@ bool ideal_read(struct ideal *out, const struct record *asked, struct error *err
     }
     fmpz_mpoly_ctx_init(out->plain, out->order.letters, ORD_LEX);
     fmpz_mpoly_init(out->dividend, out->plain);
+    fmpz_init(out->denominator);
     if (!read_generators(out, record_text(asked, "generators"), err) ||
         !read_dividend(out, record_text(asked, "divide"), err)) {
         ideal_clear(out);
@@ -251,6 +267,7 @@ void ideal_clear(struct ideal *ideal)
         fmpz_mpoly_clear(ideal->generators[i], ideal->plain);
     }
     fmpz_mpoly_clear(ideal->dividend, ideal->plain);
+    fmpz_clear(ideal->denominator);
     fmpz_mpoly_ctx_clear(ideal->plain);
     free(ideal->names);
 }

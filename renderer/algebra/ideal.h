@@ -15,7 +15,8 @@ struct ideal {
     fmpz_mpoly_ctx_t plain; /* the letters */
     fmpz_mpoly_t generators[LIMIT_GROEBNER_GENERATORS];
     int count;
-    fmpz_mpoly_t dividend;
+    fmpz_mpoly_t dividend; /* without its denominator */
+    fmpz_t denominator;
     bool divides; /* there is one */
 };
 

@@ -139,6 +139,7 @@ static void add_division(cJSON *json, const struct ideal *ideal, const struct gr
     polynomial_set(&f, ideal->dividend, ideal->plain, g->ring);
     division_init(&division, g->count, g->ring);
     polynomial_divide(&division, &f, divisors, g->ring);
+    fmpz_mul(division.scale, division.scale, ideal->denominator);
     char *scale = fmpz_get_str(NULL, 10, division.scale);
     cJSON_AddStringToObject(json, "scale", scale);
     cJSON *quotients = cJSON_AddArrayToObject(json, "quotients");

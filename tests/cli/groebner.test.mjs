@@ -55,6 +55,10 @@ test('a division: scale f = quotients and elements, and a rest', () => {
     assert.deepEqual(quotients, ['1', '2*x^2 + y']);
     const negative = basis('y-x^2', 'z-x^3', '--divide', '6*x*z-6*y^2+4*x');
     assert.deepEqual([negative.quotients, negative.rest], [['-6', '0', '0'], '4*x'], 'of what was given');
+    for (const more of [[], ['--prime', '5']]) {
+        const of = basis('x^2-y', '--order', 'lex', '--divide', 'x^2/6+0.5*y', ...more);
+        assert.deepEqual([of.scale, of.quotients, of.rest], ['6', ['1'], '4*y'], 'of a fraction');
+    }
 });
 
 test('--steps tells what became of each pair', () => {
@@ -89,6 +93,7 @@ const REFUSED = [
     ['eleven letters', ['a+b+c+d+f+g+h+i+j+k+l'], /^\/letters: more than 10 letters \(groebner_letters\)/],
     ['65 polynomials', Array.from({ length: 65 }, (_, i) => `x-${i}`), /^\/generators: more than 64 polynomials/],
     ['a dividend', ['x', '--divide', 'x+*'], /^\/divide:1:3: /],
+    ['a number that is divided by 0', ['x+y', 'x/6', '--prime', '3'], /^\/generators:2:1: a denominator is 0 modulo 3/],
 ];
 for (const [name, args, message] of REFUSED) {
     test(`refused: ${name}`, () => {
