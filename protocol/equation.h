@@ -183,6 +183,8 @@ struct equation *equation_read_relation(const char *text, const char *const *let
  * read so, as where a name stands for a number that is needed; equation_read may read it yet. */
 struct equation *equation_read_written(const char *text, const char *const *letters, bool plain,
                                        struct equation_definitions *out);
+/* The number that a text begins with, and where it ends; false: it begins with none. */
+bool equation_number(const char *text, double *out_value, const char **out_end);
 /* Canonical text; reading it gives the same text again. The caller frees it. */
 char *equation_print(const struct equation *equation, const char *const *letters);
 /* How many arguments a node has. */

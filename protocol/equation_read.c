@@ -301,12 +301,22 @@ static uint16_t read_call(struct reader *r, const char *name, const char *at)
                : compose(r, (enum equation_composite)(function - EQUATION_FUNCTIONS), in, at);
 }
 
-static uint16_t read_number(struct reader *r)
+bool equation_number(const char *text, double *out_value, const char **out_end)
 {
     /* strtod knows hexadecimal digits, too. */
-    const bool zero = r->at[0] == '0' && (r->at[1] == 'x' || r->at[1] == 'X');
-    char *end = (char *)r->at + 1;
-    const double value = zero ? 0 : strtod(r->at, &end);
+    const bool zero = text[0] == '0' && (text[1] == 'x' || text[1] == 'X');
+    char *end = (char *)text + 1;
+
+    if (!isdigit((unsigned char)text[text[0] == '.'])) {
+        return false;
+    }
+    *out_value = zero ? 0 : strtod(text, &end);
+    *out_end = end;
+    return true;
+}
+
+static uint16_t take_number(struct reader *r, double value, const char *end)
+{
     if (!isfinite(value) || fabs(value) > LIMIT_COORDINATE) {
         note(r, r->at, "%.*s is above the maximum %g", (int)(end - r->at < 24 ? end - r->at : 24),
              r->at, (double)LIMIT_COORDINATE);
@@ -370,11 +380,13 @@ static uint16_t read_group(struct reader *r)
 static uint16_t read_atom(struct reader *r)
 {
     char next[8];
+    double number;
+    const char *end;
 
     skip_space(r);
     const char c = *r->at;
-    if (isdigit((unsigned char)c) || (c == '.' && isdigit((unsigned char)r->at[1]))) {
-        return read_number(r);
+    if (equation_number(r->at, &number, &end)) {
+        return take_number(r, number, end);
     }
     if (isalpha((unsigned char)c) || c == '_') {
         return read_named(r);

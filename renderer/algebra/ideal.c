@@ -16,11 +16,15 @@ static bool is_name_part(char c)
     return isalnum((unsigned char)c) || c == '_';
 }
 
-/* The next name at or behind `at`; NULL: there is none. */
+/* The next name at or behind `at`; NULL: there is none. The e of 1e3 is none. */
 static const char *next_name(const char *at, size_t *out_length)
 {
-    while (*at && !isalpha((unsigned char)*at)) {
-        at++;
+    double number;
+
+    while (*at && (!is_name_part(*at) || isdigit((unsigned char)*at))) {
+        if (!equation_number(at, &number, &at)) {
+            at++;
+        }
     }
     *out_length = 0;
     while (is_name_part(at[*out_length])) {
@@ -48,7 +52,37 @@ static bool is_letter(const struct ideal *ideal, const char *name)
     return false;
 }
 
-/* The names in the text; a name before a parenthesis is a function. */
+static bool is_defined_at(const char *name, size_t length)
+{
+    const char *behind = name + length + strspn(name + length, " \t");
+
+    return strncmp(behind, ":=", 2) == 0;
+}
+
+/* By this line of the text, up to here. */
+static bool is_defined(const char *text, const char *name, size_t length)
+{
+    const char *line = name;
+    size_t other;
+
+    while (line > text && line[-1] != '\n') {
+        line--;
+    }
+    for (const char *at = line; (at = next_name(at, &other)) && at <= name; at += other) {
+        if (other == length && memcmp(at, name, length) == 0 && is_defined_at(at, length)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A longer name than one letter before a parenthesis is a function. */
+static bool is_function(const char *name, size_t length)
+{
+    return name[length] == '(' && length > 1;
+}
+
+/* The names in the text that neither stand for something else nor are functions. */
 static bool add_letters(struct ideal *out, const char *text, struct error *err)
 {
     size_t length, used = 0;
@@ -58,7 +92,7 @@ static bool add_letters(struct ideal *out, const char *text, struct error *err)
         char *name = out->names + used;
         memcpy(name, at, length);
         name[length] = '\0';
-        if (at[length] == '(' || is_letter(out, name)) {
+        if (is_letter(out, name) || is_function(at, length) || is_defined(text, at, length)) {
             continue;
         }
         if (out->order.letters == LIMIT_GROEBNER_LETTERS) {

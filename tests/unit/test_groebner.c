@@ -427,6 +427,38 @@ static void a_basis_of_the_book(void **state)
     free(text);
 }
 
+/* Not numbers, names that the line defines, or functions. */
+static void letters_are_those_of_the_generators(void **state)
+{
+    static const struct {
+        const char *generators, *letters;
+    } rows[] = {{"1e3*x - 2.5E1y + .5e-1*z", "x y z"},
+                {"0x - y", "x y"},
+                {"r := x^2 + y^2; r^2 - r*z", "x y z"},
+                {"r := x^2; r - y\nr2 := y; r - r2", "r x y"},
+                {"x(y + 1) - a(b)", "a b x y"},
+                {"x(y + 1) = x", "x y"},
+                {"_a1 - x2", "_a1 x2"}};
+    (void)state;
+
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        struct ideal ideal;
+        struct record asked;
+        struct error err = {0};
+        char found[64] = "";
+        record_init(&asked, &ideal_type);
+        record_put_text(&asked, "generators", rows[i].generators);
+        assert_true(ideal_read(&ideal, &asked, &err));
+        for (int k = 0; ideal.letters[k]; k++) {
+            const size_t used = strlen(found);
+            snprintf(found + used, sizeof found - used, "%s%s", used ? " " : "", ideal.letters[k]);
+        }
+        assert_string_equal(found, rows[i].letters);
+        ideal_clear(&ideal);
+        record_finish(&asked);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -438,6 +470,7 @@ int main(void)
         cmocka_unit_test(each_criterion_saves_divisions),
         cmocka_unit_test(bases_modulo_a_prime_are_those_of_the_rationals),
         cmocka_unit_test(a_basis_of_the_book),
+        cmocka_unit_test(letters_are_those_of_the_generators),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
