@@ -2,9 +2,30 @@
 /* Values of expressions, from arguments to results: arguments have lower indices. */
 #include "expression.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 
 #include "affine.h"
+
+enum { EXACT_DIGITS = 15 }; /* decimals that a double gives back as they were */
+
+bool expression_check_digits(const char *text, const char *place, struct error *err)
+{
+    int digits = 0;
+
+    for (const char *at = text; *at; at++) {
+        if (isdigit((unsigned char)*at)) {
+            digits += digits > 0 || *at != '0';
+        } else if (*at != '.') {
+            digits = 0;
+        }
+        if (digits > EXACT_DIGITS) {
+            return error_set(err, ERROR_LIMIT, place,
+                             "a number has more than %d digits, which are rounded", EXACT_DIGITS);
+        }
+    }
+    return true;
+}
 
 static bool is_leaf(const struct equation_node *node)
 {

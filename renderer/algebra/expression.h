@@ -16,6 +16,8 @@ struct expression {
     struct error *err;
 };
 
+/* Of a text before it is read: longer numbers would be rounded. False: `err` is filled. */
+bool expression_check_digits(const char *text, const char *place, struct error *err);
 /* Of the node `root`; false: `err` is filled. */
 bool expression_value(const struct expression *e, uint16_t root, struct fraction *out);
 /* Tells why a leaf makes no polynomial; false. */

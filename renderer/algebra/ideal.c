@@ -162,6 +162,13 @@ static bool fail_at(struct error *err, const char *place)
     return false;
 }
 
+static bool fail_in_line(struct error *err, int line)
+{
+    err->line = line;
+    err->column = 1;
+    return false;
+}
+
 struct reading {
     const struct ideal *ideal;
     struct error *err;
@@ -217,6 +224,10 @@ static bool read_polynomial(const struct ideal *ideal, const char *text, int lin
 {
     struct equation_errors errors = {0};
     struct reading r = {ideal, err};
+
+    if (!expression_check_digits(text, "", err)) {
+        return fail_in_line(err, line);
+    }
     struct equation *equation = equation_read_relation(text, ideal->letters, &errors);
 
     if (!equation) {
@@ -226,11 +237,7 @@ static bool read_polynomial(const struct ideal *ideal, const char *text, int lin
                         ? subtract_sides(&r, equation, out, out_denominator)
                         : error_set(err, ERROR_INVALID, "", "an inequality is no polynomial");
     free(equation);
-    if (!ok) {
-        err->line = line;
-        err->column = 1;
-    }
-    return ok;
+    return ok || fail_in_line(err, line);
 }
 
 static bool add_generator(struct ideal *out, const char *text, int line, struct error *err)

@@ -3,15 +3,12 @@
  */
 #include "implicit.h"
 
-#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "affine.h"
 #include "expression.h"
 #include "protocol/limits.h"
-
-enum { EXACT_DIGITS = 15 }; /* decimals that a double gives back as they were */
 
 struct values {
     const struct record *params;
@@ -38,25 +35,6 @@ static bool leaf(void *data, const struct equation_node *node, struct fraction *
     return true;
 }
 
-/* Longer numbers are rounded when the equation is read. */
-static bool check_digits(const char *text, struct error *err)
-{
-    int digits = 0;
-
-    for (const char *at = text; *at; at++) {
-        if (isdigit((unsigned char)*at)) {
-            digits += digits > 0 || *at != '0';
-        } else if (*at != '.') {
-            digits = 0;
-        }
-        if (digits > EXACT_DIGITS) {
-            return error_set(err, ERROR_LIMIT, "",
-                             "a number has more than %d digits, which are rounded", EXACT_DIGITS);
-        }
-    }
-    return true;
-}
-
 static struct equation *read_text(const char *text, struct error *err)
 {
     struct equation_errors errors = {0};
@@ -73,7 +51,8 @@ bool implicit_read(struct fraction *out, const struct record *params, const fmpz
 {
     const char *text = record_text(params, "equation");
     struct fraction right;
-    struct equation *equation = check_digits(text, err) ? read_text(text, err) : NULL;
+    struct equation *equation =
+        expression_check_digits(text, "", err) ? read_text(text, err) : NULL;
 
     if (!equation) {
         return false;

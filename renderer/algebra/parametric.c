@@ -324,6 +324,10 @@ static bool find_value(struct reading *r, struct fraction *out)
 static struct equation *read_text(const char *text, const char *place, struct error *err)
 {
     struct equation_errors errors = {0};
+
+    if (!expression_check_digits(text, place, err)) {
+        return NULL;
+    }
     struct equation *equation = strlen(text) <= LIMIT_EQUATION_BYTES
                                     ? equation_read_expression(text, letters, &errors)
                                     : NULL;

@@ -6,6 +6,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import { after, before, test } from 'node:test';
+import { longNumber } from '../support/algebra.mjs';
 import { ask, childrenOf, startDaemon, until } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
 
@@ -13,7 +14,6 @@ const nest = (count, open, inner, close = '') => open.repeat(count) + inner + cl
 const chain = (sign) =>
     `q0 := s+t; ${Array.from({ length: 30 }, (_, i) => `q${i + 1} := q${i}${sign}q${i};`).join('')} q30`;
 const quotients = (a, b) => Array.from({ length: 30 }, (_, i) => `1/(${a}+${i}${b}+1)`).join('+');
-const long = (i) => `0.${'739184620583'.repeat(2).slice(i)}7`;
 
 // --- surfaces whose equation is asked for: their x, or all three parts; where and why there is none ---
 
@@ -177,7 +177,7 @@ for (const [what, equation, column, why] of TEXTS) {
 /** A polynomial of degree 3 in both letters with all its terms. */
 function everyTerm(first) {
     const powers = [0, 1, 2, 3].flatMap((i) => [0, 1, 2, 3].map((k) => `s^${i}*t^${k}`));
-    return powers.map((power, i) => `${long((first + i) % 12)}*${power}`).join('+');
+    return powers.map((power, i) => `${longNumber((first + i) % 12)}*${power}`).join('+');
 }
 
 test('a surface that takes too long: frames come until it is ended by its limit', async () => {

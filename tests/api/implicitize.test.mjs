@@ -3,16 +3,9 @@
 // server. No clock decides.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { algebraOf, isAlgebra } from '../support/algebra.mjs';
+import { algebraOf, isAlgebra, SLOW_SURFACE } from '../support/algebra.mjs';
 import { ask, startDaemon, until } from '../support/daemon.mjs';
 
-// Degree 18 with coefficients of some thousand bits: longer than all that this file does meanwhile.
-const long = (i) => `0.${'739184620583'.repeat(2).slice(i)}7`;
-const slow = {
-    x: `s^3*t^3+${long(0)}*s-2t^2+${long(1)}s^2*t`,
-    y: `2s^3*t^3+${long(2)}s^3-t+${long(3)}s*t-${long(4)}t^3*s^2`,
-    z: `s^3*t^3-${long(5)}t^3+s^2+${long(6)}s*t^2`,
-};
 const ball = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
 
 test('others are answered while an equation is sought, and it ends with the server', async () => {
@@ -21,7 +14,7 @@ test('others are answered while an equation is sought, and it ends with the serv
     const question = fetch(`${daemon.url}/v1/implicitize`, {
         method: 'POST',
         headers: { 'content-type': 'application/json' },
-        body: JSON.stringify(slow),
+        body: JSON.stringify(SLOW_SURFACE),
     })
         .then((response) => response.status)
         .catch(() => 0)
@@ -48,7 +41,7 @@ test('the process may be killed at any moment: the search fails, the next one an
         }).then((response) => response.json());
     await ask(daemon, 'POST', '/v1/scenes?id=other', ball);
     for (let i = 0; i < kills; i++) {
-        const { id } = await post('/v1/implicitize?wait=no', slow);
+        const { id } = await post('/v1/implicitize?wait=no', SLOW_SURFACE);
         await until(() => algebraOf(daemon).length === 1, 'the process of the algebra');
         await new Promise((done) => setTimeout(done, (i * 7) % 50));
         algebraOf(daemon).forEach((pid) => process.kill(pid, 'SIGKILL'));
@@ -126,7 +119,7 @@ test('an equation is looked at while it is sought, step by step, and cancelled',
     }
 
     // The degree is told before the equation is found: the answer is not what brings the steps.
-    const long = await begin(slow);
+    const long = await begin(SLOW_SURFACE);
     await until(async () => (await look(long)).next > 1, 'the first steps');
     const early = await look(long);
     assert.deepEqual([early.state, early.steps[0].step, early.steps[0].count, early.answer], ['running', 'degree', 18, undefined]);

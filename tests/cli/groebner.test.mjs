@@ -92,6 +92,8 @@ const REFUSED = [
     ['more letters than there are', ['x+y', '--eliminate', '3'], /^\/eliminate: 3 of 2 letters/],
     ['eleven letters', ['a+b+c+d+f+g+h+i+j+k+l'], /^\/letters: more than 10 letters \(groebner_letters\)/],
     ['65 polynomials', Array.from({ length: 65 }, (_, i) => `x-${i}`), /^\/generators: more than 64 polynomials/],
+    ['a number that is rounded', ['x', 'x-0.12345678901234567'], /^\/generators:2:1: a number has more than 15 digits, which are rounded/],
+    ['a dividend that is rounded', ['x', '--divide', '1234567890.1234567*x'], /^\/divide:1:1: a number has more than 15 digits/],
     ['a dividend', ['x', '--divide', 'x+*'], /^\/divide:1:3: /],
     ['a number that is divided by 0', ['x+y', 'x/6', '--prime', '3'], /^\/generators:2:1: a denominator is 0 modulo 3/],
 ];

@@ -228,6 +228,7 @@ const REFUSED = [
     ['an exponent that is large', ['s^(9^9)', 't', 's'], /^x:1:\d: exponent 387420489; the limit is 64 \(equation_exponent\)/],
     ['hexadecimal digits', ['0x10*s', 't', 's'], /^x:1:2: "x10" is no name/],
     ['a long number', ['s*(10^60)^60*(10^60)^60', 't', 's*t'], /^x: a coefficient of \d+ bits; the limit is 4096 \(coefficient_bits\)/],
+    ['a number that is rounded', ['s', '0.1000000000000000055*t', 't'], /^y: a number has more than 15 digits, which are rounded/],
     ['an unknown name', ['s', 'sn(t)', 't'], /^y:1:1: "sn" is no function/],
     ['two unknown names', ['s', 'q+sn(t)', 't'], /^y:1:1: "q" is no name.*\(also 1:3: "sn" is no function/],
     ['x', ['x', 's', 't'], /^x:1:1: "x" is no name/],

@@ -5,7 +5,7 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { test } from 'node:test';
-import { algebraOf } from '../support/algebra.mjs';
+import { algebraOf, SLOW_SURFACE } from '../support/algebra.mjs';
 import { ask, until } from '../support/daemon.mjs';
 import { closePage, documentWhen, field, nodeIn, pictureChanged, row, settled, stillPixels, useStage } from './stage.mjs';
 
@@ -218,15 +218,14 @@ test('the dialog tells of the clip that the badge tells of', async () => {
 });
 
 test('a search tells its steps, and is cancelled', async () => {
-    const long = (i) => `0.${'739184620583'.repeat(2).slice(i)}7`;
     const { page } = await open(UMBRELLA);
     await told(page, 'Verified');
     await page.getByRole('button', { name: 'Change …' }).click();
     const dialog = page.getByRole('dialog', { name: 'Equation of a parametric surface' });
     await dialog.getByText('The patch covers').waitFor();
-    await dialog.getByRole('textbox', { name: 'x =' }).fill(`s^3*t^3+${long(0)}*s-2t^2+${long(1)}s^2*t`);
-    await dialog.getByRole('textbox', { name: 'y =' }).fill(`2s^3*t^3+${long(2)}s^3-t+${long(3)}s*t-${long(4)}t^3*s^2`);
-    await dialog.getByRole('textbox', { name: 'z =' }).fill(`s^3*t^3-${long(5)}t^3+s^2+${long(6)}s*t^2`);
+    for (const [part, text] of Object.entries(SLOW_SURFACE)) {
+        await dialog.getByRole('textbox', { name: `${part} =` }).fill(text);
+    }
     await dialog.getByText(/Looking for the equation … prime \d+: \d+ bits \(\d+\.\d s\)/).waitFor();
     assert.equal(algebraOf(stage.daemon).length, 1);
     await dialog.getByRole('button', { name: 'Cancel' }).click();

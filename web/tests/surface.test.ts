@@ -44,6 +44,8 @@ test("one text or one range is replaced, and the rest stays", () => {
 test("a node's own letters become numbers, and no others", () => {
     const texts = withNumbers({ x: "2a*cos(t)", y: "abs(a - b)", z: "a1 + s" }, { a: -0.5, b: 2 });
     expect(texts).toEqual({ x: "2(-0.5)*cos(t)", y: "abs((-0.5) - (2))", z: "a1 + s" });
+    const long = withNumbers({ x: "a*s", y: "b", z: "constructor" }, { a: 0.1 + 0.2, b: -1 / 3 });
+    expect(long).toEqual({ x: "(0.3)*s", y: "(-0.333333333333333)", z: "constructor" });
 });
 
 test("a letter matters where a part has it", () => {

@@ -108,12 +108,19 @@ export function rangesOf(surface: Surface): Readonly<Record<string, SurfaceRange
     return readSurface(surfaceValue(surface, lettersOf(surface)))?.ranges ?? {};
 }
 
+/* As many digits as a number may have that is proved with. */
+const EXACT_DIGITS = 15;
+const exactText = (value: number): string => `${Number(value.toPrecision(EXACT_DIGITS))}`;
+
 /* The texts with the values of the node's own letters in them: what is proved has none. */
 export function withNumbers(
     texts: PartTexts,
     numbers: Readonly<Record<string, number>>,
 ): PartTexts {
     const put = (text: string): string =>
-        text.replace(/[A-Za-z_]\w*/g, (word) => (word in numbers ? `(${numbers[word]})` : word));
+        text.replace(/[A-Za-z_]\w*/g, (word) => {
+            const value = Object.hasOwn(numbers, word) ? numbers[word] : undefined;
+            return value === undefined ? word : `(${exactText(value)})`;
+        });
     return { x: put(texts.x), y: put(texts.y), z: put(texts.z) };
 }
