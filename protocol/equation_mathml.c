@@ -203,7 +203,9 @@ static void gather_factors(const struct typesetter *t, struct part part, struct 
 {
     const struct equation_node *node = node_at(t, part.node);
 
-    if (node->op == EQUATION_MULTIPLY && (part.told || !is_negative(t, node))) {
+    if (node->op == EQUATION_NEGATE && part.told) {
+        gather_factors(t, (struct part){.node = node->args[0]}, out);
+    } else if (node->op == EQUATION_MULTIPLY && (part.told || !is_negative(t, node))) {
         gather_factors(t, (struct part){.node = node->args[0], .told = part.told}, out);
         if (!out->more) {
             gather_factors(t, (struct part){.node = node->args[1]}, out);
@@ -242,9 +244,7 @@ static void put_factor(struct typesetter *t, struct part factor, bool is_followe
 {
     const struct equation_node *node = node_at(t, factor.node);
 
-    if (factor.told && node->op == EQUATION_NEGATE) {
-        put_node(t, node->args[0], PRODUCT);
-    } else if (node->op == EQUATION_DIVIDE) {
+    if (node->op == EQUATION_DIVIDE) {
         put_fraction(t, node, factor.told);
     } else if (is_by_name(node)) {
         put_call(t, node, NULL, is_followed);
@@ -256,13 +256,10 @@ static void put_factor(struct typesetter *t, struct part factor, bool is_followe
 /* The first sign of a factor decides what stands before it, the last what stands behind it. */
 enum look { DIGITS, LETTER, WORD, FUNCTION, FRACTION, PARENTHESES, BARS };
 
-static enum look look_of(const struct typesetter *t, struct part factor)
+static enum look look_of(const struct typesetter *t, uint16_t factor)
 {
-    const struct equation_node *node = node_at(t, factor.node);
+    const struct equation_node *node = node_at(t, factor);
 
-    if (factor.told && node->op == EQUATION_NEGATE) {
-        return look_of(t, (struct part){.node = node->args[0]});
-    }
     if (node->op == EQUATION_DIVIDE) {
         return FRACTION;
     }
@@ -274,8 +271,7 @@ static enum look look_of(const struct typesetter *t, struct part factor)
     }
     if (node->op == EQUATION_WHOLE || node->op == EQUATION_POWER) {
         const struct equation_node *base = node_at(t, node->args[0]);
-        return level_of(t, base) < ATOM ? PARENTHESES
-                                        : look_of(t, (struct part){.node = node->args[0]});
+        return level_of(t, base) < ATOM ? PARENTHESES : look_of(t, node->args[0]);
     }
     if (called(node) && called(node)->notation == EQUATION_FENCED) {
         return BARS;
@@ -304,19 +300,19 @@ static void put_factors(struct typesetter *t, struct part product)
     gather_factors(t, product, &factors);
     for (int i = 0; i < factors.count; i++) {
         const struct part *factor = &factors.list[i];
-        const enum look look = look_of(t, *factor);
+        const enum look look = look_of(t, factor->node);
         if (i > 0 && look == PARENTHESES) {
             mathml_break(&t->to);
         }
         if (i > 0) {
-            put_times(t, look_of(t, factors.list[i - 1]), look);
+            put_times(t, look_of(t, factors.list[i - 1].node), look);
         }
         if (i > 0 && t->left <= -SLACK) {
             mathml_put(&t->to, ELLIPSIS);
             return;
         }
         const bool is_last = i + 1 == factors.count;
-        put_factor(t, *factor, !is_last && look_of(t, factors.list[i + 1]) != FUNCTION);
+        put_factor(t, *factor, !is_last && look_of(t, factors.list[i + 1].node) != FUNCTION);
     }
     if (factors.more) {
         put_times(t, LETTER, LETTER);
@@ -367,8 +363,10 @@ static void put_signed(struct typesetter *t, uint16_t index)
 
     if (node->op == EQUATION_MULTIPLY) {
         put_factors(t, (struct part){.node = index, .told = true});
+    } else if (node->op == EQUATION_NEGATE) {
+        put_node(t, node->args[0], PRODUCT);
     } else if (!put_stroke(t, node, true)) {
-        put_factor(t, (struct part){.node = index, .told = true}, false);
+        put_fraction(t, node, true);
     }
 }
 
