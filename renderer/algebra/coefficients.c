@@ -3,7 +3,6 @@
 #include "coefficients.h"
 
 #include <flint/fmpq.h>
-#include <flint/ulong_extras.h>
 
 #include "protocol/limits.h"
 #include "residues.h"
@@ -87,19 +86,13 @@ static bool null_vector(const struct patch *patch, const struct monomials *m, mp
     return one;
 }
 
-/* Keeps the monomials that the equation has. */
-static bool find_support(const struct patch *patch, slong degree, flint_rand_t random,
-                         struct monomials *out)
+/* Keeps the monomials that the equation has modulo this prime. */
+static bool find_support(const struct patch *patch, slong degree, mp_limb_t prime,
+                         flint_rand_t random, struct monomials *out)
 {
-    mp_limb_t prime = UWORD(1) << 29;
-    bool ok = false;
-
     all_monomials(out, degree);
     mp_limb_t *vector = flint_calloc((size_t)out->count, sizeof *vector);
-    for (int i = 0; !ok && i < TRIES; i++) {
-        prime = n_nextprime(prime, 0);
-        ok = null_vector(patch, out, prime, random, vector);
-    }
+    const bool ok = null_vector(patch, out, prime, random, vector);
     slong kept = 0;
     for (slong i = 0; ok && i < out->count; i++) {
         if (vector[i] != 0) {
@@ -139,17 +132,23 @@ static bool rebuild(struct lifting *l)
     return settled;
 }
 
-static bool lift_all(const struct patch *patch, struct lifting *l, flint_rand_t random,
-                     const struct progress *progress, int *out_primes, struct error *err)
+/* UNLUCKY: the equation has other monomials, which are 0 modulo the prime of the support. */
+enum outcome { LIFTED, UNLUCKY, TOO_LONG };
+
+static enum outcome lift_all(const struct patch *patch, struct lifting *l, flint_rand_t random,
+                             const struct progress *progress, int *out_primes)
 {
     mp_limb_t prime = UWORD(1) << 60;
     mp_limb_t *vector = flint_calloc((size_t)l->support.count, sizeof *vector);
     bool settled = false;
+    int failed = 0;
 
     *out_primes = 0;
-    while (!settled && fmpz_bits(l->modulus) <= 2 * LIMIT_COEFFICIENT_BITS) {
-        prime = n_nextprime(prime, 0);
-        if (null_vector(patch, &l->support, prime, random, vector)) {
+    while (!settled && failed < TRIES && fmpz_bits(l->modulus) <= 2 * LIMIT_COEFFICIENT_BITS) {
+        prime = residues_next_prime(patch->part, patch->ring, prime);
+        if (!null_vector(patch, &l->support, prime, random, vector)) {
+            failed++;
+        } else {
             lift(l, vector, prime);
             settled = rebuild(l);
             (*out_primes)++;
@@ -158,9 +157,7 @@ static bool lift_all(const struct patch *patch, struct lifting *l, flint_rand_t 
         }
     }
     flint_free(vector);
-    return settled ||
-           error_set(err, ERROR_LIMIT, "", "coefficients of over %d bits (coefficient_bits)",
-                     LIMIT_COEFFICIENT_BITS);
+    return settled ? LIFTED : failed == TRIES ? UNLUCKY : TOO_LONG;
 }
 
 /* Times the common denominator, without a common divisor. */
@@ -188,32 +185,48 @@ static void make_whole(const struct lifting *l, fmpz_mpoly_t out, const fmpz_mpo
     fmpz_clear(multiple), fmpz_clear(coefficient), fmpz_clear(content);
 }
 
+static enum outcome lift_support(const struct patch *patch, struct lifting *l, flint_rand_t random,
+                                 const struct progress *progress, fmpz_mpoly_t out,
+                                 const fmpz_mpoly_ctx_t space, int *out_primes)
+{
+    const slong count = l->support.count, degree = l->support.degree;
+
+    progress_tell(progress, PROGRESS_SUPPORT, count, "%ld of %ld monomials", count,
+                  (degree + 1) * (degree + 2) * (degree + 3) / 6);
+    l->residues = _fmpz_vec_init(count);
+    l->values = _fmpq_vec_init(count);
+    l->before = _fmpq_vec_init(count);
+    fmpz_init_set_ui(l->modulus, 1);
+    const enum outcome outcome = lift_all(patch, l, random, progress, out_primes);
+    if (outcome == LIFTED) {
+        make_whole(l, out, space);
+    }
+    fmpz_clear(l->modulus);
+    _fmpz_vec_clear(l->residues, count);
+    _fmpq_vec_clear(l->values, count);
+    _fmpq_vec_clear(l->before, count);
+    return outcome;
+}
+
 bool patch_find_equation(const struct patch *patch, slong degree, flint_rand_t random,
                          const struct progress *progress, fmpz_mpoly_t out,
                          const fmpz_mpoly_ctx_t space, int *out_primes, struct error *err)
 {
-    struct lifting l = {0};
-    bool ok = find_support(patch, degree, random, &l.support) ||
-              error_set(err, ERROR_INTERNAL, "", "no single equation of degree %ld", degree);
-    const slong count = l.support.count;
+    mp_limb_t prime = UWORD(1) << 29;
+    enum outcome outcome = UNLUCKY;
 
-    if (ok) {
-        progress_tell(progress, PROGRESS_SUPPORT, count, "%ld of %ld monomials", count,
-                      (degree + 1) * (degree + 2) * (degree + 3) / 6);
+    for (int i = 0; outcome == UNLUCKY && i < TRIES; i++) {
+        struct lifting l = {0};
+        prime = residues_next_prime(patch->part, patch->ring, prime);
+        if (find_support(patch, degree, prime, random, &l.support)) {
+            outcome = lift_support(patch, &l, random, progress, out, space, out_primes);
+        }
+        flint_free(l.support.powers);
     }
-
-    l.residues = _fmpz_vec_init(count);
-    l.values = _fmpq_vec_init(count);
-    l.before = _fmpq_vec_init(count);
-    fmpz_init_set_ui(l.modulus, 1);
-    ok = ok && lift_all(patch, &l, random, progress, out_primes, err);
-    if (ok) {
-        make_whole(&l, out, space);
+    if (outcome == TOO_LONG) {
+        return error_set(err, ERROR_LIMIT, "", "coefficients of over %d bits (coefficient_bits)",
+                         LIMIT_COEFFICIENT_BITS);
     }
-    fmpz_clear(l.modulus);
-    _fmpz_vec_clear(l.residues, count);
-    _fmpq_vec_clear(l.values, count);
-    _fmpq_vec_clear(l.before, count);
-    flint_free(l.support.powers);
-    return ok;
+    return outcome == LIFTED ||
+           error_set(err, ERROR_INTERNAL, "", "no single equation of degree %ld", degree);
 }

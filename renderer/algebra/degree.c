@@ -4,8 +4,6 @@
  * point of the surface share its parameters, others the base points alone. */
 #include "degree.h"
 
-#include <flint/ulong_extras.h>
-
 #include "protocol/limits.h"
 #include "residues.h"
 
@@ -176,7 +174,8 @@ static bool count(const struct residues *r, flint_rand_t random, struct patch_de
 
 bool patch_is_surface(const struct patch *patch, flint_rand_t random, struct error *err)
 {
-    const slong rank = find_rank(patch, n_nextprime(UWORD(1) << 60, 0), random);
+    const mp_limb_t prime = residues_next_prime(patch->part, patch->ring, UWORD(1) << 60);
+    const slong rank = find_rank(patch, prime, random);
 
     return rank == 3 ||
            error_set(err, ERROR_INVALID, "", "these equations make a %s, not a surface",
@@ -186,7 +185,7 @@ bool patch_is_surface(const struct patch *patch, flint_rand_t random, struct err
 bool patch_find_degrees(const struct patch *patch, flint_rand_t random, struct patch_degrees *out,
                         struct error *err)
 {
-    const mp_limb_t prime = n_nextprime(UWORD(1) << 60, 0);
+    const mp_limb_t prime = residues_next_prime(patch->part, patch->ring, UWORD(1) << 60);
     struct residues r;
 
     if (!patch_is_surface(patch, random, err)) {

@@ -4,6 +4,28 @@
 
 #include <flint/ulong_extras.h>
 
+static bool divides_any(mp_limb_t prime, const fmpz_mpoly_t parts[PATCH_PARTS],
+                        const fmpz_mpoly_ctx_t ring)
+{
+    for (int i = 0; i < PATCH_PARTS; i++) {
+        for (slong n = 0; n < fmpz_mpoly_length(parts[i], ring); n++) {
+            if (fmpz_fdiv_ui(parts[i]->coeffs + n, prime) == 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+mp_limb_t residues_next_prime(const fmpz_mpoly_t parts[PATCH_PARTS], const fmpz_mpoly_ctx_t ring,
+                              mp_limb_t prime)
+{
+    do {
+        prime = n_nextprime(prime, 0);
+    } while (divides_any(prime, parts, ring));
+    return prime;
+}
+
 static mp_limb_t *dense(const fmpz_mpoly_t f, const fmpz_mpoly_ctx_t ring, slong degree, nmod_t mod)
 {
     mp_limb_t *table = flint_calloc((size_t)((degree + 1) * (degree + 1)), sizeof *table);

@@ -15,6 +15,9 @@ struct residues {
     mp_limb_t *part[PATCH_PARTS]; /* of s^i t^j at [i (degree + 1) + j] */
 };
 
+/* The next prime that divides no coefficient of the parts. */
+mp_limb_t residues_next_prime(const fmpz_mpoly_t parts[PATCH_PARTS], const fmpz_mpoly_ctx_t ring,
+                              mp_limb_t prime);
 void residues_init(struct residues *out, const fmpz_mpoly_t parts[PATCH_PARTS],
                    const fmpz_mpoly_ctx_t ring, slong degree, mp_limb_t prime);
 void residues_clear(struct residues *r);

@@ -108,6 +108,16 @@ for (const [name, texts, degree, terms] of SURFACES) {
     });
 }
 
+// The next primes above 2^29 and 2^60: what is computed modulo one of them lacks what it divides.
+for (const [name, texts, equation] of [
+    ['a denominator', ['s/(2^29+11)', 't', 's*t/(2^29+11)'], 'x*y-z'],
+    ['a large denominator', ['s/(2^60+33)', 't', 's*t/(2^60+33)'], 'x*y-z'],
+    ['a coefficient', ['s', 't', 's^2+(2^29+11)*t'], 'x^2+536870923*y-z'],
+    ['a sum of coefficients', ['s+2*t', 's+(2^29+13)*t', 's'], '536870925*x-2*y-536870923*z'],
+]) {
+    test(`a prime that divides ${name}`, () => assert.equal(implicitize(texts).equation, equation));
+}
+
 // The surfaces that a road does not finish within seconds.
 const patches = ['biquadratic patch', 'cubic triangle', 'bicubic patch'];
 const TOO_HARD = {
