@@ -114,16 +114,6 @@ static void write_arguments(struct code_writer *w, const struct expr *args)
     PUT(w, "%s)", *before == '(' ? "(" : "");
 }
 
-/* What is divided by, if it may be 0. */
-static void write_divisor(struct code_writer *w, const struct expr *expr)
-{
-    const bool guarded = !expr->value && !type_is_matrix(expr->type);
-
-    PUT(w, guarded ? "code_nonzero(" : "");
-    writer_expr(w, expr);
-    PUT(w, guarded ? ")" : "");
-}
-
 /* code_div(a, b), or (a << (b & 31)): what GLSL leaves open. */
 static bool write_guarded(struct code_writer *w, const struct expr *expr)
 {
@@ -147,15 +137,14 @@ static bool write_guarded(struct code_writer *w, const struct expr *expr)
 
 static void write_joined(struct code_writer *w, const struct expr *expr, const char *op)
 {
+    const bool guarded = expr->op == OP_DIVIDE && !expr->b->value; /* constants are not 0 */
+
     PUT(w, "(");
     writer_expr(w, expr->a);
     PUT(w, " %s ", op);
-    if (expr->op == OP_DIVIDE) {
-        write_divisor(w, expr->b);
-    } else {
-        writer_expr(w, expr->b);
-    }
-    PUT(w, ")");
+    PUT(w, guarded ? "code_nonzero(" : "");
+    writer_expr(w, expr->b);
+    PUT(w, guarded ? "))" : ")");
 }
 
 static void write_assign(struct code_writer *w, const struct expr *expr)

@@ -87,18 +87,25 @@ CODE_WHOLE(vec2, ivec2, uvec2)
 CODE_WHOLE(vec3, ivec3, uvec3)
 CODE_WHOLE(vec4, ivec4, uvec4)
 
-/* Nothing where a matrix has no inverse. */
-#define CODE_MATRIX(T)                                                                             \
+/* The inverse is nothing where a matrix has none. */
+#define CODE_MATRIX(T, COLUMNS)                                                                    \
     T code_inverse(T m)                                                                            \
     {                                                                                              \
         if (determinant(m) == 0.0) {                                                               \
             return T(0.0);                                                                         \
         }                                                                                          \
         return inverse(m);                                                                         \
+    }                                                                                              \
+    T code_nonzero(T m)                                                                            \
+    {                                                                                              \
+        for (int i = 0; i < COLUMNS; i++) {                                                        \
+            m[i] = code_nonzero(m[i]);                                                             \
+        }                                                                                          \
+        return m;                                                                                  \
     }
-CODE_MATRIX(mat2)
-CODE_MATRIX(mat3)
-CODE_MATRIX(mat4)
+CODE_MATRIX(mat2, 2)
+CODE_MATRIX(mat3, 3)
+CODE_MATRIX(mat4, 4)
 
 /* Octaves of value noise. */
 float code_fbm(vec3 p, int octaves)

@@ -409,6 +409,8 @@ static void the_ends_of_domains_agree(void **state)
         "exp(abs(p.x) * 100.0 + 100.0)",
         "1.0 / (p.x * 0.0)",
         "(p.x * 0.0) / (p.y * 0.0)",
+        "(mat2(p.x, p.y, p.z, 1.0) / (mat2(p.y) * 0.0))[0][1] * 1e-30",
+        "(mat3(p.x) / mat3(p.y))[2][0]",
         "float(int(p.x * 1e10))",
         "float(uint(p.x * 1e10))",
         "float(7 / int(p.x))",
