@@ -8,10 +8,7 @@
 #include "job_internal.h"
 #include "protocol/memory.h"
 
-enum {
-    ROUNDS_PIXELS_MAX = 1 << 22,
-    PACE_WRONG_US = 1600000, /* so slow a tile is begun anew, with its row, in smaller ones */
-};
+enum { PACE_WRONG_US = 1600000 }; /* so slow a tile is begun anew, with its row, in smaller ones */
 
 static int larger(int a, int b)
 {
@@ -30,15 +27,14 @@ static enum job_state fail(struct job *job)
     return job->state = JOB_FAILED;
 }
 
-/* What is kept between rounds takes memory. */
-static bool may_have_rounds(const struct job *job)
+static bool wants_rounds(const struct job *job)
 {
     for (int i = 0; i < AOV_COUNT; i++) {
         if (job->formats[i] && i != AOV_COLOR) {
             return false;
         }
     }
-    return job->in_rounds && (long)job->region.width * job->region.height <= ROUNDS_PIXELS_MAX;
+    return job->in_rounds;
 }
 
 static enum pace_company company_of(const struct job *job)
@@ -146,7 +142,7 @@ static enum job_state begin(struct job *job)
         pace_be_careful(job->pace, job->level);
     }
     begin_row(job, 0);
-    if (may_have_rounds(job)) {
+    if (wants_rounds(job)) {
         draw_in_rounds(
             job->renderer->draw, &job->picture,
             (struct tile){job->region.x, job->region.y, job->region.width, job->region.height});

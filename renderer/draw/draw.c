@@ -218,6 +218,7 @@ bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_
 void draw_end(struct draw *draw, struct draw_picture *picture)
 {
     picture->backend->end(draw, picture);
+    draw->kept_pixels -= picture->kept_pixels;
     *picture = (struct draw_picture){0};
 }
 
@@ -225,9 +226,12 @@ void draw_end(struct draw *draw, struct draw_picture *picture)
 
 void draw_in_rounds(struct draw *draw, struct draw_picture *picture, struct tile region)
 {
-    if (picture->settings.samples > FIRST_ROUND) {
+    const long pixels = (long)region.width * region.height;
+
+    if (picture->settings.samples > FIRST_ROUND && pixels <= DRAW_ROUNDS_PIXELS &&
+        draw->kept_pixels + pixels <= DRAW_ROUNDS_TOGETHER) {
         picture->backend->keep(draw, picture, region);
-        picture->rounds = true;
+        draw->kept_pixels += picture->kept_pixels = pixels;
         picture->until = FIRST_ROUND;
     }
 }
@@ -245,7 +249,7 @@ struct picture_rounds draw_rounds(const struct draw_picture *picture)
 {
     struct picture_rounds rounds = {.done = picture->from >= picture->settings.samples, .count = 1};
 
-    for (int samples = FIRST_ROUND; picture->rounds && samples < picture->settings.samples;
+    for (int samples = FIRST_ROUND; picture->kept_pixels > 0 && samples < picture->settings.samples;
          samples *= ROUND_GROWTH) {
         rounds.count++;
         rounds.done += picture->from >= samples;

@@ -87,9 +87,9 @@ struct draw_picture {
     struct tile_in_flight slots[TILES_IN_FLIGHT];
     /* Drawn in rounds: each tile gets samples `from` to `until`, and between two rounds its pixels
      * are kept in textures as large as the region that is drawn. */
-    bool rounds;
+    long kept_pixels; /* 0: there is one round */
     int from, until;
-    GLuint kept, kept_counted; /* 0: there is one round */
+    GLuint kept, kept_counted; /* 0: there is one round, or the engine keeps them */
     GLuint keeper;             /* the framebuffer by which they are copied */
     int left, top;             /* of the region */
     uint64_t copied;           /* pixels that the last picture had */
@@ -125,8 +125,13 @@ void draw_end(struct draw *draw, struct draw_picture *picture);
 bool draw_picture_pauses(const struct draw_picture *picture);
 /* Its pixels have several samples each. */
 bool draw_is_sampled(const struct draw_picture *picture);
-/* Before the first tile: the picture is drawn in rounds of ever more samples, each a whole picture.
- * All outputs but color keep to one round. */
+/* What is kept between rounds takes 24 or 32 bytes for each pixel. */
+enum {
+    DRAW_ROUNDS_PIXELS = 1 << 22,   /* of a picture, at most, */
+    DRAW_ROUNDS_TOGETHER = 1 << 23, /* and of all that are drawn in rounds */
+};
+/* Before the first tile: the picture is drawn in rounds of ever more samples, each a whole picture,
+ * while the pixels above allow it. All outputs but color keep to one round. */
 void draw_in_rounds(struct draw *draw, struct draw_picture *picture, struct tile region);
 /* After the last tile: false when all samples are there. */
 bool draw_next_round(struct draw_picture *picture);

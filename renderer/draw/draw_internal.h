@@ -22,6 +22,7 @@ struct draw {
     uint64_t pixels;          /* by the engine, and not copied */
     struct engine_cubes *cubes;
     struct engine_pause pause;
+    long kept_pixels; /* of all pictures in rounds */
 };
 
 /* What draws a picture's tiles. Each is called by the function of draw.h that is named alike. */

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "renderer/draw/draw.h"
 #include "tests/support/drawing.h"
 
 enum { WIDTH = 72, HEIGHT = 41, ROUNDS_MAX = 4 };
@@ -29,8 +30,8 @@ static void add_rows(struct job *job, struct image *image)
     image_finish(&rows);
 }
 
-static struct rounds draw_rounds(struct renderer *renderer, struct resident *resident,
-                                 const struct job_desc *desc)
+static struct rounds rounds_of(struct renderer *renderer, struct resident *resident,
+                               const struct job_desc *desc)
 {
     struct job *job = job_create(resident, desc, NULL);
     struct rounds rounds = {.count = 1};
@@ -75,7 +76,7 @@ static void check_by(enum render_stage stage, const char *path, int tile_side,
     desc.samples = samples;
     struct image plain = drawing_of(resident, &desc, AOV_COLOR);
     desc.in_rounds = true;
-    struct rounds rounds = draw_rounds(renderer, resident, &desc);
+    struct rounds rounds = rounds_of(renderer, resident, &desc);
     struct image *last = &rounds.of[rounds.count - 1];
     assert_int_equal(rounds.count, count);
     if (!drawing_is_same(last, &plain)) {
@@ -157,6 +158,49 @@ static void other_pictures_may_come_between(void **state)
     renderer_destroy(renderer);
 }
 
+static struct job *begin_large(struct renderer *renderer, struct resident *resident,
+                               int *out_rounds)
+{
+    struct job_desc desc = drawing_desc(2048, DRAW_ROUNDS_PIXELS / 2048);
+
+    desc.samples = 4;
+    desc.in_rounds = true;
+    struct job *job = job_create(resident, &desc, NULL);
+    while (job_step(job) == JOB_WAITING || job_is_within_tile(job)) {
+        renderer_poll(renderer, 0);
+    }
+    *out_rounds = job_rounds(job).count;
+    return job;
+}
+
+/* Each keeps memory until it is done. */
+static void few_large_pictures_have_rounds_at_once(void **state)
+{
+    enum { MOST = DRAW_ROUNDS_TOGETHER / DRAW_ROUNDS_PIXELS };
+    struct renderer *renderer = drawing_renderer(32);
+    struct job *jobs[MOST + 1];
+    int rounds;
+
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        renderer_use_stage(renderer, k == 0 ? RENDER_FRAGMENT : RENDER_ENGINE);
+        struct resident *resident =
+            drawing_resident(renderer, "tests/golden/nodes/sphere/scene.json");
+        for (int i = 0; i <= MOST; i++) {
+            jobs[i] = begin_large(renderer, resident, &rounds);
+            assert_int_equal(rounds, i < MOST ? 2 : 1);
+        }
+        job_destroy(jobs[0]);
+        jobs[0] = begin_large(renderer, resident, &rounds);
+        assert_int_equal(rounds, 2);
+        for (int i = 0; i <= MOST; i++) {
+            job_destroy(jobs[i]);
+        }
+        resident_destroy(resident);
+    }
+    renderer_destroy(renderer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -164,6 +208,7 @@ int main(void)
         cmocka_unit_test(all_pixels_get_better),
         cmocka_unit_test(few_samples_are_one_round),
         cmocka_unit_test(other_pictures_may_come_between),
+        cmocka_unit_test(few_large_pictures_have_rounds_at_once),
     };
 
     return cmocka_run_group_tests_name("rounds", tests, NULL, NULL);
