@@ -323,6 +323,28 @@ static void no_case_is_lost(void **state)
     assert_int_equal(case_count, CASES);
 }
 
+/* What a case has of its own would be seen. */
+static void pictures_of_a_group_differ(void **state)
+{
+    size_t alike = 0;
+
+    (void)state;
+    for (size_t i = 0; i < case_count; i++) {
+        for (size_t k = i + 1; k < case_count && strcmp(cases[k].group, cases[i].group) == 0; k++) {
+            struct picture a = {0}, b = {0};
+            if (picture_read(&a, case_path(&cases[i], "expected.png")) &&
+                picture_read(&b, case_path(&cases[k], "expected.png")) &&
+                picture_compare(&a, &b, NULL).same) {
+                print_message("%s is as %s\n", cases[k].title, cases[i].title);
+                alike++;
+            }
+            picture_finish(&a);
+            picture_finish(&b);
+        }
+    }
+    assert_int_equal(alike, 0);
+}
+
 /* --- */
 
 static int set_up(void **state)
@@ -366,7 +388,7 @@ static bool open_page(const char *program)
 
 int main(int argc, char **argv)
 {
-    static struct CMUnitTest tests[CASES_MAX + 4];
+    static struct CMUnitTest tests[CASES_MAX + 5];
     size_t n = 0;
 
     (void)argc;
@@ -378,6 +400,7 @@ int main(int argc, char **argv)
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(no_case_is_lost);
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(bad_reference);
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(missing_reference);
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(pictures_of_a_group_differ);
     find_cases();
     for (size_t i = 0; i < case_count; i++) {
         if (strcmp(cases[i].group, "refused") != 0 && (!accepted() || is_accepted(&cases[i]))) {
