@@ -233,36 +233,40 @@ static bool learn(struct job *job, const struct tile *tile, int64_t took_us, int
                           (int)(cpu_us / 1000), (int)(job->limit_us / 1000));
 }
 
-/* Gives up the tile that was started last. */
-static void drop_last_tile(struct job *job)
+/* Gives up the tile that was started last. False: the device is lost. */
+static bool drop_last_tile(struct job *job)
 {
     const int index = (job->started - 1) % TILES_IN_FLIGHT;
     struct tile_in_flight *slot = &job->picture.slots[index];
 
-    if (slot->fence) {
-        draw_wait(job->renderer->draw, &job->picture, index, &job->error);
+    if (slot->fence && !draw_wait(job->renderer->draw, &job->picture, index, &job->error)) {
+        return false;
     }
     for (int i = 0; draw_picture_pauses(&job->picture) && i < FRAME_STAGES; i++) {
         job->times.us[i] += (uint32_t)slot->stage_us[i]; /* it was spent all the same */
     }
     slot->samples = 0;
     job->started--;
+    return true;
 }
 
 /* Nothing of the row was handed out yet. The last tile of the row before it may still be on its
  * way. */
-static void begin_row_anew(struct job *job)
+static bool begin_row_anew(struct job *job)
 {
     const int top = job->region.y + job->row.y;
 
     while (job->started > job->collected && last_slot(job)->tile.y == top) {
-        drop_last_tile(job);
+        if (!drop_last_tile(job)) {
+            return false;
+        }
     }
     for (int i = 0; i < AOV_COUNT && job->started == job->collected; i++) {
         free(job->rows[i]);
         job->rows[i] = NULL;
     }
     begin_row(job, job->row.y);
+    return true;
 }
 
 /* --- a sample of a tile --- */
@@ -293,8 +297,9 @@ static bool end_sample(struct job *job)
         return false;
     }
     if (took_us > PACE_WRONG_US && job->row.pace.doublings > 0 && job->picture.from == 0) {
-        begin_row_anew(job);
-    } else if (!job_is_within_tile(job)) {
+        return begin_row_anew(job);
+    }
+    if (!job_is_within_tile(job)) {
         end_tile_start(job);
     }
     return true;
