@@ -45,11 +45,11 @@ struct exchange {
     struct MHD_Connection *connection;
     const struct route *route;
     char *target;
-    char method[24];                       /* cut off where it is none of ours */
-    struct header *headers, **headers_end; /* copies, in their order */
-    bool begun, counted;                   /* admitted; among http->pending */
-    bool handled;                          /* was given to its handler */
-    bool heavy, again;                     /* as a heavy task; the handler wants to be one */
+    char method[24];        /* cut off where it is none of ours */
+    struct header *headers; /* copies, in their order */
+    bool begun, counted;    /* admitted; among http->pending */
+    bool handled;           /* was given to its handler */
+    bool heavy, again;      /* as a heavy task; the handler wants to be one */
     struct body body;
     size_t body_bytes; /* seen, kept or not */
     int64_t deadline;
@@ -273,34 +273,47 @@ void http_check_gone(struct http *http)
 
 /* --- libmicrohttpd's callbacks --- */
 
-/* White space around a value is no part of it (RFC 9110, 5.5). The library cuts it off in front. */
+/* The link to the header; at the end: there is none. */
+static struct header **find_link(struct exchange *exchange, const char *name)
+{
+    struct header **at = &exchange->headers;
+
+    while (*at && strcasecmp((*at)->name, name) != 0) {
+        at = &(*at)->next;
+    }
+    return at;
+}
+
+/* White space around a value is no part of it (RFC 9110, 5.5). The library cuts it off in front.
+ * Lines of one name are one list (5.3). */
 static enum MHD_Result add_header(void *data, enum MHD_ValueKind kind, const char *name,
                                   const char *value)
 {
-    struct exchange *exchange = data;
+    struct header **at = find_link(data, name), *before = *at;
+    const char *joined = before ? before->value : "", *between = before ? ", " : "";
     const size_t name_bytes = strlen(name) + 1;
-    size_t length = value ? strlen(value) : 0;
+    int length = value ? (int)strlen(value) : 0;
 
     (void)kind;
     while (length && (value[length - 1] == ' ' || value[length - 1] == '\t')) {
         length--;
     }
-    struct header *header = memory_alloc(1, sizeof *header + name_bytes + length + 1);
+    const size_t value_bytes = strlen(joined) + strlen(between) + (size_t)length + 1;
+    struct header *header = memory_alloc(1, sizeof *header + name_bytes + value_bytes);
     memcpy(header->name, name, name_bytes);
-    memcpy(header->name + name_bytes, value ? value : "", length);
     header->value = header->name + name_bytes;
-    *exchange->headers_end = header;
-    exchange->headers_end = &header->next;
+    snprintf(header->name + name_bytes, value_bytes, "%s%s%.*s", joined, between, length,
+             value ? value : "");
+    header->next = before ? before->next : NULL;
+    *at = header;
+    free(before);
     return MHD_YES;
 }
 
 static const char *find_header(const struct request *request, const char *name)
 {
-    const struct header *header = ((const struct exchange *)request)->headers;
+    const struct header *header = *find_link((struct exchange *)request, name);
 
-    while (header && strcasecmp(header->name, name) != 0) {
-        header = header->next;
-    }
     return header ? header->value : NULL;
 }
 
@@ -326,7 +339,6 @@ static void *on_target(void *data, const char *target, struct MHD_Connection *co
 
     exchange->http = http;
     exchange->connection = connection;
-    exchange->headers_end = &exchange->headers;
     exchange->target = target ? memory_text(target) : NULL;
     exchange->body.bodies = &http->bodies;
     exchange->request.hub = http->app.hub;

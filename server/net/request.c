@@ -140,21 +140,56 @@ bool request_check_query(const struct request *request, const char *const *names
     return true;
 }
 
-bool request_tag_listed(const char *list, const char *tag)
+/* --- conditions (RFC 9110, 13.1) --- */
+
+/* Behind the tag that `list` begins with, quotes and all. */
+static const char *tag_end(const char *list)
+{
+    const char *end = list + strcspn(list, ", \t\"");
+
+    if (*end == '"') {
+        end++;
+        end += strcspn(end, "\"");
+        end += *end == '"';
+    }
+    return end;
+}
+
+/* `weak`: a tag that is weak (`W/`) names the same as one that is not. */
+static bool is_listed(const char *list, const char *tag, bool weak)
 {
     const size_t wanted = strlen(tag);
 
     while (list && *list) {
-        list += strspn(list, ", \t");
-        const size_t length = strcspn(list, ", \t");
+        const char *end = tag_end(list += strspn(list, ", \t"));
 
-        if ((length == 1 && *list == '*') ||
-            (length == wanted && strncmp(list, tag, wanted) == 0)) {
+        list += weak && strncmp(list, "W/", 2) == 0 ? 2 : 0;
+        if ((*list == '*' && list + 1 == end) ||
+            ((size_t)(end - list) == wanted && strncmp(list, tag, wanted) == 0)) {
             return true;
         }
-        list += length;
+        list = end;
     }
     return false;
+}
+
+bool request_knows_tag(const struct request *request, const char *tag)
+{
+    return is_listed(request_header(request, "If-None-Match"), tag, true);
+}
+
+bool request_check_match(const struct request *request, const char *tag, struct error *err)
+{
+    const char *match = request_header(request, "If-Match");
+
+    if (!tag) {
+        return !match || error_set(err, ERROR_PRECONDITION, "If-Match", "there is nothing yet");
+    }
+    if (match && !is_listed(match, tag, false)) {
+        return error_set(err, ERROR_PRECONDITION, "If-Match", "the tag is %s", tag);
+    }
+    return !request_knows_tag(request, tag) ||
+           error_set(err, ERROR_PRECONDITION, "If-None-Match", "the tag is %s", tag);
 }
 
 /* --- responses --- */

@@ -50,14 +50,17 @@ struct response {
 /* Splits and decodes "/path?a=b". False and `err` when it is malformed. */
 bool request_parse_target(struct request *request, const char *target, struct error *err);
 void request_finish(struct request *request);
-/* Both return NULL where it is absent. */
+/* Both return NULL where it is absent. Lines of one header are joined by ", ". */
 const char *request_header(const struct request *request, const char *name);
 const char *request_query(const struct request *request, const char *name);
 /* False and `err` where the request has a query that is not in `names`, which end with NULL. */
 bool request_check_query(const struct request *request, const char *const *names,
                          struct error *err);
-/* Whether an If-Match or If-None-Match list names `tag` (with its quotes). */
-bool request_tag_listed(const char *list, const char *tag);
+/* Whether If-None-Match has `tag` (with its quotes): the client has what it stands for. */
+bool request_knows_tag(const struct request *request, const char *tag);
+/* False and `err` where If-Match does not have the tag of what is to be changed, or If-None-Match
+ * has it. NULL: there is nothing yet. */
+bool request_check_match(const struct request *request, const char *tag, struct error *err);
 
 /* Answers the request once; any thread. Takes the body of `response`, or its reference. The request
  * must not be used afterwards. */

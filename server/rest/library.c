@@ -87,7 +87,7 @@ void library_read(struct request *request)
     hub_lock(request->hub);
     const struct library_item *item = find(request, &err);
     if (item) {
-        if (!request_tag_listed(request_header(request, "If-None-Match"), item->tag)) {
+        if (!request_knows_tag(request, item->tag)) {
             response = (struct response){.status = 200, .type = "application/json"};
             response.body = library_print_item(item, &response.length);
         }
@@ -120,21 +120,6 @@ static bool check_id(const char *id, const char *place, struct error *err)
                                             "an id has 1 to %d of a-z, 0-9 and -", LIMIT_ID_BYTES);
 }
 
-/* `item` is NULL where there is none yet. */
-static bool check_match(const struct request *request, const struct library_item *item,
-                        struct error *err)
-{
-    const char *match = request_header(request, "If-Match");
-    const char *none = request_header(request, "If-None-Match");
-    const char *place = match ? "If-Match" : "If-None-Match";
-
-    if (!item) {
-        return !match || error_set(err, ERROR_PRECONDITION, place, "there is no such entry");
-    }
-    return (match ? request_tag_listed(match, item->tag) : !request_tag_listed(none, item->tag)) ||
-           error_set(err, ERROR_PRECONDITION, place, "the entry has the tag %s", item->tag);
-}
-
 /* The entry of a body, for the id in the path. */
 static bool read_entry(const struct request *request, const cJSON *json, struct library_entry *out,
                        struct error *err)
@@ -164,7 +149,7 @@ static bool put(struct request *request, const struct library_entry *entry, stru
     const size_t freed = old ? strlen(old->text) : 0, length = strlen(entry->text);
     struct response response;
 
-    if (!check_match(request, old, err) ||
+    if (!request_check_match(request, old ? old->tag : NULL, err) ||
         !library_has_room(library, !old, length > freed ? length - freed : 0, err)) {
         return false;
     }
@@ -206,7 +191,7 @@ void library_delete(struct request *request)
 
     hub_lock(hub);
     const struct library_item *item = find(request, &err);
-    const bool ok = item && check_match(request, item, &err);
+    const bool ok = item && request_check_match(request, item->tag, &err);
     if (ok) {
         struct store_write *write = library_remove(hub->library, request->capture[0]);
 

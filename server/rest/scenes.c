@@ -132,7 +132,7 @@ void scenes_read(struct request *request)
     }
     tag_of(room, tag);
     struct response response = {.status = 304, .body = "", .borrowed = true};
-    if (!request_tag_listed(request_header(request, "If-None-Match"), tag)) {
+    if (!request_knows_tag(request, tag)) {
         struct shared_buffer *text = room_text(room);
 
         response = (struct response){.status = 200, .type = "application/json", .shared = text};
@@ -171,16 +171,10 @@ void scenes_poster(struct request *request)
 
 static bool check_match(const struct request *request, const struct room *room, struct error *err)
 {
-    const char *match = request_header(request, "If-Match");
-    const char *none = request_header(request, "If-None-Match");
     char tag[32];
 
     tag_of(room, tag);
-    if ((match && !request_tag_listed(match, tag)) || request_tag_listed(none, tag)) {
-        return error_set(err, ERROR_PRECONDITION, match ? "If-Match" : "If-None-Match",
-                         "the scene is at revision %s", tag);
-    }
-    return true;
+    return request_check_match(request, tag, err);
 }
 
 /* Takes `scene` and `notes`. `poster`: what it looks like; NULL: that is not known. */

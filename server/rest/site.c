@@ -316,7 +316,7 @@ void site_schema(struct request *request)
     struct hub *hub = request->hub;
     struct response response = {.status = 304, .body = "", .borrowed = true};
 
-    if (!request_tag_listed(request_header(request, "If-None-Match"), hub->schema_tag)) {
+    if (!request_knows_tag(request, hub->schema_tag)) {
         response = (struct response){.status = 200,
                                      .type = "application/schema+json",
                                      .body = hub->schema,

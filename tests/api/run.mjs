@@ -58,7 +58,10 @@ function readFile(name) {
 function exchange(daemon, request) {
     const { first, headers, body } = splitMessage(request);
     const [method, at] = first.split(' ');
-    const fields = Object.fromEntries(headers.map((h) => h.split(/:\s*(.*)/s).slice(0, 2)));
+    const fields = {};
+    for (const [name, value] of headers.map((h) => h.split(/:\s*(.*)/s))) {
+        fields[name] = name in fields ? [fields[name], value].flat() : value; // a list: several lines
+    }
     return new Promise((done, fail) => {
         const call = http.request(
             { host: '127.0.0.1', port: daemon.port, method, path: at, headers: fields, agent: false },
