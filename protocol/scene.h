@@ -34,7 +34,7 @@ struct resource {
     struct resource *shader; /* a material's, where it is one of the document's; else NULL */
     struct declared_params *declared; /* of a primitive, shader or model; else NULL */
     struct node *root;                /* of a model; else NULL */
-    size_t level;                     /* of a model; private to scene_models.c */
+    size_t level, found;              /* of a model; private to scene_models.c */
     int search;                       /* the same */
 };
 

@@ -51,16 +51,16 @@ static bool find_level(struct search *search, struct resource *model)
             if (!find_level(search, named)) {
                 return false;
             }
-            level = named->level >= level ? named->level + 1 : level;
+            level = named->found >= level ? named->found + 1 : level;
         }
     }
-    model->level = level;
+    model->found = level;
     model->search = DONE;
     search->count--;
     return true;
 }
 
-/* On failure those found are right, too: what leads to the circle is not among them. */
+/* On failure all levels stay: they are those of the scene before what was tried. */
 bool scene_check_all_models(struct scene *scene, const char *place, struct error *err)
 {
     struct search search = {.scene = scene, .place = place, .err = err};
@@ -72,6 +72,9 @@ bool scene_check_all_models(struct scene *scene, const char *place, struct error
         if (!find_level(&search, scene->models.items[i])) {
             return false;
         }
+    }
+    for (size_t i = 0; i < scene->models.count; i++) {
+        scene->models.items[i]->level = scene->models.items[i]->found;
     }
     return true;
 }

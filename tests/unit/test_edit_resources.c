@@ -257,6 +257,23 @@ static void no_circles(void **state)
                        ERROR_CONFLICT, "/nodes/q1/params/model", circle);
 }
 
+/* The tree that it should have left is as high among the models as before. */
+static void a_refused_move_between_models_leaves_no_circle(void **state)
+{
+    (void)state;
+    edits_apply(scene, "[{'op':'move','at':'/models/lone','before':'pawn'},"
+                       "{'op':'insert','into':'/nodes/l','value':{'id':'n','type':'model',"
+                       "'params':{'model':'pair'}}}]");
+    edits_assert_fails(scene, "[{'op':'move','at':'/nodes/n','into':'/nodes/p'}]", ERROR_CONFLICT,
+                       "/nodes/n",
+                       "models in a circle: /models/pawn -> /models/pair -> /models/pawn");
+    edits_assert_fails(scene,
+                       "[{'op':'insert','into':'/nodes/q','value':{'type':'model',"
+                       "'params':{'model':'lone'}}}]",
+                       ERROR_CONFLICT, "/nodes/q",
+                       "models in a circle: /models/lone -> /models/pair -> /models/lone");
+}
+
 /* As many as allowed, and one more. */
 static void counts_hold_in_edits(void **state)
 {
@@ -293,6 +310,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(primitives_and_models_come_and_go, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_is_used_stays, set_up, tear_down),
         cmocka_unit_test_setup_teardown(no_circles, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_refused_move_between_models_leaves_no_circle, set_up,
+                                        tear_down),
         cmocka_unit_test_setup_teardown(counts_hold_in_edits, set_up, tear_down),
     };
 
