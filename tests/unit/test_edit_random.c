@@ -12,7 +12,7 @@
 #include "protocol/json.h"
 #include "tests/support/random_edit.h"
 
-enum { DOCUMENTS = 75, EDITS = 60, DAMAGED = 3000 };
+enum { DOCUMENTS = 75, EDITS = 60, DAMAGED = 3000, BATCHES = 300, BATCH = 40 };
 
 static struct error err;
 
@@ -205,6 +205,64 @@ static void random_edits_have_exact_inverses(void **state)
     }
 }
 
+/* Adds to `ops` what the scene accepts, with the ids that it gives. */
+static void add_accepted(cJSON *ops, struct scene *scene, struct random *random)
+{
+    cJSON *edit = random_edit(random, scene), *applied = NULL;
+
+    if (edit_apply(scene, edit, &applied, NULL, &err)) {
+        while (applied->child) {
+            cJSON_AddItemToArray(ops, cJSON_DetachItemFromArray(applied, 0));
+        }
+    }
+    cJSON_Delete(applied);
+    cJSON_Delete(edit);
+}
+
+/* Many operations that are accepted one after the other, and one at the end that is not. */
+static cJSON *refused_batch(struct random *random, const struct scene *scene)
+{
+    struct scene *copy = scene_copy(scene);
+    cJSON *ops = cJSON_CreateArray(), *last = cJSON_CreateObject();
+
+    for (size_t i = 2 + random_below(random, BATCH); i > 0; i--) {
+        add_accepted(ops, copy, random);
+    }
+    cJSON_AddStringToObject(last, "op", "remove");
+    cJSON_AddStringToObject(last, "at", "/nodes/nobody");
+    cJSON_AddItemToArray(ops, last);
+    scene_destroy(copy);
+    return ops;
+}
+
+/* What was done before the operation that is refused is undone: where that could fail, it would end
+ * the server. */
+static void refused_batches_leave_nothing(void **state)
+{
+    (void)state;
+
+    for (uint64_t seed = 1; seed <= BATCHES; seed++) {
+        struct random random = {1000 + seed};
+        struct scene *scene = random_document(&random, 1 + random_below(&random, 12));
+        char *before = scene_print(scene, false);
+        cJSON *ops = refused_batch(&random, scene);
+
+        assert_false(edit_apply(scene, ops, NULL, NULL, &err));
+        assert_int_equal(err.kind, ERROR_NOT_FOUND);
+        assert_string_equal(err.place, "/nodes/nobody");
+        char *after = scene_print(scene, false);
+        assert_same(before, after, ops);
+        struct scene *read = parse(before);
+        assert_same_users(read, scene);
+        assert_trees(scene);
+        scene_destroy(read);
+        free(before);
+        free(after);
+        cJSON_Delete(ops);
+        scene_destroy(scene);
+    }
+}
+
 /* Edits with damaged texts: refused without a trace, or applied and taken back. */
 static void damaged_edits(void **state)
 {
@@ -248,6 +306,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_edits_have_exact_inverses),
+        cmocka_unit_test(refused_batches_leave_nothing),
         cmocka_unit_test(damaged_edits),
     };
 
