@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/random.h>
 
+#include "protocol/json.h"
 #include "protocol/limits.h"
 #include "protocol/memory.h"
 
@@ -21,9 +22,9 @@ struct question {
     struct record asked;
     enum state state;
     bool in_hands; /* of a thread, or of the tasks */
-    char **steps;  /* lines of JSON */
+    char **steps;  /* JSON, as the program has printed it */
     size_t count;
-    cJSON *answer;
+    char *answer; /* JSON; NULL: none yet */
     struct error err;
     struct question *next;
 };
@@ -49,7 +50,7 @@ static void question_destroy(struct question *question)
         free(question->steps[i]);
     }
     free(question->steps);
-    cJSON_Delete(question->answer);
+    free(question->answer);
     record_finish(&question->asked);
     free(question->client);
     free(question);
@@ -106,18 +107,22 @@ static bool begin(struct question *question, bool dropped)
     return wanted;
 }
 
+/* Takes `answer`. */
 static void end(struct question *question, bool made, cJSON *answer, const struct error *err)
 {
+    char *text = made ? json_print(answer, false) : NULL;
+
+    cJSON_Delete(answer);
     pthread_mutex_lock(&question->questions->lock);
     if (question->state == RUNNING) {
         question->state = made ? DONE : FAILED;
-        question->answer = answer;
+        question->answer = text;
         question->err = *err;
-    } else {
-        cJSON_Delete(answer);
+        text = NULL;
     }
     question->in_hands = false;
     pthread_mutex_unlock(&question->questions->lock);
+    free(text);
 }
 
 static void answer(void *data, bool dropped)
@@ -244,6 +249,7 @@ static cJSON *describe_error(const struct error *err)
     return json;
 }
 
+/* Under the lock: what is JSON already is only copied. */
 static cJSON *describe(const struct question *question, size_t from)
 {
     cJSON *json = cJSON_CreateObject();
@@ -251,11 +257,11 @@ static cJSON *describe(const struct question *question, size_t from)
     cJSON_AddStringToObject(json, "state", state_names[question->state]);
     cJSON *steps = cJSON_AddArrayToObject(json, "steps");
     for (size_t i = from; i < question->count; i++) {
-        cJSON_AddItemToArray(steps, cJSON_Parse(question->steps[i]));
+        cJSON_AddItemToArray(steps, cJSON_CreateRaw(question->steps[i]));
     }
     cJSON_AddNumberToObject(json, "next", (double)question->count);
     if (question->state == DONE) {
-        cJSON_AddItemToObject(json, "answer", cJSON_Duplicate(question->answer, true));
+        cJSON_AddRawToObject(json, "answer", question->answer);
     } else if (question->state == FAILED) {
         cJSON_AddItemToObject(json, "error", describe_error(&question->err));
     }

@@ -23,8 +23,8 @@ void questions_destroy(struct questions *questions); /* after algebra_destroy; m
 bool questions_add(struct questions *questions, const char *client, const struct record *asked,
                    char out_id[QUESTION_ID_BYTES], struct error *err);
 /* {"state": waiting, running, done, failed or cancelled, "steps": those from number `from` on,
- * "next": the number after them, "answer" or "error"}; NULL: there is none of this type. Caller
- * frees. */
+ * "next": the number after them, "answer" or "error"}; NULL: there is none of this type. Steps and
+ * answer are raw, so it can only be printed. Caller frees. */
 cJSON *questions_look(struct questions *questions, const struct record_type *type, const char *id,
                       size_t from);
 /* False: there is none of this type. */
