@@ -452,13 +452,31 @@ describe('slow clients', () => {
         await until(async () => (await counter(daemon, 'render_queue')) === 0, 'the end of the order');
     });
 
-    test('a client that leaves before its picture is there frees the renderer', async () => {
+    test('a client that leaves before its picture is there frees the renderer: no more tiles of it are drawn', async () => {
+        const tiles = () => counter(daemon, 'tiles_total');
+        const before = await tiles();
         const peer = connect();
-        const at = '/v1/scenes/s/image.png?width=4096&height=4096&samples=4';
-        peer.socket.write(get('', at));
-        await until(async () => (await counter(daemon, 'render_queue')) === 1, 'the order');
+        peer.socket.write(get('', '/v1/scenes/s/image.png?width=4096&height=4096&samples=4'));
+        await until(async () => (await tiles()) > before, 'its first tiles');
         peer.close();
-        await until(async () => (await counter(daemon, 'render_queue')) === 0, 'its end', 60000);
+        await until(async () => (await counter(daemon, 'render_queue')) === 0, 'its end');
+        // The render process tells its tiles now and then. Of two such reports the second has those of others only.
+        let others = 0;
+        const other = async () => {
+            others += 1;
+            const at = `/v1/scenes/s/image.png?width=${64 + others}&height=48`; // a new one, of one tile
+            assert.equal((await fetch(daemon.url + at)).status, 200);
+        };
+        const report = async () => {
+            for (const known = await tiles(); (await tiles()) === known; ) {
+                await other();
+            }
+            return tiles();
+        };
+        await other(); // after it the first one's end is known there
+        const first = await report();
+        const more = (await report()) - first;
+        assert.ok(more <= others, `${more} tiles beside ${others} pictures of one tile`);
     });
 });
 
