@@ -2,8 +2,10 @@
 // Sockets have the smallest buffers there are, so that writes are short, and every third wait is interrupted by
 // a signal (support/drivers/socket_driver.c), in the daemon and in the render process: nothing is lost or changed.
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { ask, counter, startDaemon } from '../support/daemon.mjs';
+import { ask, counter, makeDirectory, removeDirectory, startDaemon } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
 
 const EDITS = 40;
@@ -18,16 +20,27 @@ const DOCUMENT = {
     },
 };
 
+// In the order of support/drivers/socket_driver.c.
+const SITES = ['sockets accepted', 'ends of pairs', 'short sends', 'polls interrupted', 'epolls interrupted'];
+
+let folder;
+let file;
 let whole;
 let torn;
 before(async () => {
+    folder = makeDirectory();
+    file = path.join(folder, 'sites');
+    fs.writeFileSync(file, Buffer.alloc(8 * SITES.length));
     whole = await startDaemon({ driver: 'null' });
-    torn = await startDaemon({ driver: ['socket', 'null'], environment: { SOCKET_EVERY: '3' } });
+    torn = await startDaemon({ driver: ['socket', 'null'], environment: { SOCKET_EVERY: '3', SOCKET_FILE: file } });
     for (const daemon of [whole, torn]) {
         await ask(daemon, 'POST', '/v1/scenes?id=s', DOCUMENT);
     }
 });
-after(() => Promise.all([whole?.stop(), torn?.stop()]));
+after(async () => {
+    await Promise.all([whole?.stop(), torn?.stop()]);
+    removeDirectory(folder);
+});
 
 const bytesOf = async (daemon, at) => {
     const answer = await fetch(daemon.url + at);
@@ -58,4 +71,11 @@ test('edits and frames arrive, each once', async () => {
     assert.ok(JSON.stringify(document).includes(`${1 + EDITS / 100}`));
     assert.equal(await counter(torn, 'worker_restarts_total'), 0);
     await Promise.all([author.close(), watcher.close()]);
+});
+
+test('all of this was done to the line', (t) => {
+    const bytes = fs.readFileSync(file);
+    const counts = SITES.map((site, i) => [site, Number(bytes.readBigInt64LE(8 * i))]);
+    t.diagnostic(counts.map(([site, count]) => `${count} ${site}`).join(', '));
+    assert.deepEqual(counts.filter(([, count]) => count === 0), []);
 });
