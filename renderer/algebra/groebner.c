@@ -119,8 +119,23 @@ static const struct polynomial **list_divisors(const struct groebner *g, int wit
     return list;
 }
 
-/* The rest of `f` by the others, into `f`; the steps that it took. */
-static slong reduce(const struct groebner *g, struct polynomial *f, int without)
+/* Each product of a quotient and a divisor has the sugar of both, and the rest the greatest. */
+static ulong add_sugar(const struct groebner *g, const struct division *division,
+                       const struct polynomial *const *divisors, ulong sugar)
+{
+    for (int i = 0; i < division->count; i++) {
+        if (polynomial_terms(&division->quotients[i], g->ring) > 0) {
+            const ulong own = polynomial_degree(&division->quotients[i], g->ring) +
+                              g->sugar[divisors[i] - g->elements];
+            sugar = own > sugar ? own : sugar;
+        }
+    }
+    return sugar;
+}
+
+/* The rest of `f` by the others, into `f`, and its sugar, unless that is NULL; the steps that it
+ * took. */
+static slong reduce(const struct groebner *g, struct polynomial *f, int without, ulong *sugar)
 {
     struct division division;
     int count;
@@ -131,6 +146,9 @@ static slong reduce(const struct groebner *g, struct polynomial *f, int without)
     polynomial_swap(f, &division.rest, g->ring);
     polynomial_normalize(f, g->ring);
     const slong steps = division_steps(&division, g->ring);
+    if (sugar) {
+        *sugar = add_sugar(g, &division, divisors, *sugar);
+    }
     division_clear(&division, g->ring);
     free(divisors);
     return steps;
@@ -239,11 +257,12 @@ static enum pair_outcome divide_pair(struct groebner *g, const struct pair *pair
 
     polynomial_init(&s, g->ring);
     polynomial_s(&s, &g->elements[pair->i], &g->elements[pair->j], g->ring);
-    step->divisions = reduce(g, &s, -1);
+    ulong sugar = pair->sugar;
+    step->divisions = reduce(g, &s, -1, &sugar);
     const bool added = polynomial_terms(&s, g->ring) > 0;
     if (added) {
         step->element = g->count;
-        append(g, &s, pair->sugar);
+        append(g, &s, sugar);
     }
     polynomial_clear(&s, g->ring);
     g->counts.divisions += step->divisions;
@@ -325,7 +344,7 @@ void groebner_reduce(struct groebner *g)
 {
     keep_minimal(g);
     for (int i = 0; i < g->count; i++) {
-        reduce(g, &g->elements[i], i);
+        reduce(g, &g->elements[i], i, NULL);
     }
     sort(g);
 }
@@ -339,7 +358,7 @@ bool groebner_is_basis(const struct groebner *g)
     for (int j = 0; j < g->count; j++) {
         for (int i = 0; basis && i < j; i++) {
             polynomial_s(&s, &g->elements[i], &g->elements[j], g->ring);
-            reduce(g, &s, -1);
+            reduce(g, &s, -1, NULL);
             basis = polynomial_terms(&s, g->ring) == 0;
         }
     }

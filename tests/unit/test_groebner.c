@@ -273,6 +273,18 @@ struct making {
     struct groebner g;
 };
 
+/* What sugar is: the degree that it would have with a letter more that makes all homogeneous. */
+static void no_sugar_is_below_the_degree(void *data, const struct groebner *g,
+                                         const struct groebner_step *step)
+{
+    (void)data;
+    assert_true(step->sugar >= step->degree && step->sugar < 1000);
+    if (step->outcome == PAIR_ADDED) {
+        assert_true(g->sugar[step->element] >=
+                    polynomial_degree(&g->elements[step->element], g->ring));
+    }
+}
+
 /* `turn`: the generator that comes first. */
 static void make_basis(struct making *m, const char *text, enum order_kind kind, ulong prime,
                        int turn, const struct groebner_params *params)
@@ -296,7 +308,7 @@ static void make_basis(struct making *m, const char *text, enum order_kind kind,
         groebner_add(&m->g, &f);
     }
     polynomial_clear(&f, &m->ring);
-    groebner_complete(&m->g, params, NULL, NULL);
+    groebner_complete(&m->g, params, no_sugar_is_below_the_degree, NULL);
     groebner_reduce(&m->g);
 }
 
