@@ -18,8 +18,11 @@ export interface Search {
     cancel(): void;
 }
 
-type Result = Omit<Search, "cancel">;
-const BEGUN: Result = { state: "busy", found: null, problem: null, step: null };
+interface Result extends Omit<Search, "cancel"> {
+    /* What was asked for the equation that is found; "": none is. */
+    readonly of: string;
+}
+const BEGUN: Result = { state: "busy", found: null, problem: null, step: null, of: "" };
 
 const asProblem = (problem: unknown): RestError =>
     problem instanceof RestError ? problem : new RestError(0, "unreachable", "", String(problem));
@@ -51,8 +54,6 @@ export function useEquation(
         ...rangesAsked(texts, ranges),
         ...(size === null ? {} : { size }),
     });
-    /* What the equation is of that is shown. */
-    const shown = useRef("");
     useEffect(() => {
         const own = new AbortController();
         const tell = (next: (now: Result) => Result): void => {
@@ -61,9 +62,7 @@ export function useEquation(
             }
         };
         request.current = own;
-        if (shown.current !== about) {
-            setResult(BEGUN);
-        }
+        setResult((now) => (now.of === about ? now : BEGUN));
         const timer = setTimeout(() => {
             implicitize(
                 rest.request,
@@ -71,10 +70,7 @@ export function useEquation(
                 (step) => tell((now) => ({ ...now, step })),
                 own.signal,
             ).then(
-                (found) => {
-                    shown.current = about;
-                    tell(() => ({ ...BEGUN, state: "over", found }));
-                },
+                (found) => tell(() => ({ ...BEGUN, state: "over", found, of: about })),
                 (problem) => tell(() => ({ ...BEGUN, state: "over", problem: asProblem(problem) })),
             );
         }, ASK_MS);
