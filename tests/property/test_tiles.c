@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Pictures do not show how they were cut up: into tiles, into regions, into rows. And their size
  * costs no memory. */
+#include <limits.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,6 +11,7 @@
 #include <cmocka.h>
 
 #include "tests/support/drawing.h"
+#include "tests/support/peak.h"
 
 enum { WIDTH = 112, HEIGHT = 72 };
 
@@ -135,11 +137,11 @@ static void regions_do_not_show(void **state)
 
 /* --- large pictures --- */
 
-enum { LARGE_WIDTH = LIMIT_IMAGE_SIDE, MOST_MIB = 64 };
+enum { LARGE_WIDTH = LIMIT_IMAGE_SIDE };
 #ifdef __SANITIZE_ADDRESS__
-enum { LARGE_HEIGHT = 512 }; /* where memory is not looked at */
+enum { LARGE_HEIGHT = 512, MOST_MIB = INT_MAX }; /* AddressSanitizer keeps what is freed */
 #else
-enum { LARGE_HEIGHT = 1024 };
+enum { LARGE_HEIGHT = 1024, MOST_MIB = 64 };
 #endif
 
 static const struct job_region corners[] = {{8000, 100, 300, 200},
@@ -147,25 +149,6 @@ static const struct job_region corners[] = {{8000, 100, 300, 200},
                                             {8100, 225, 300, 100},
                                             {15900, LARGE_HEIGHT - 200, 484, 200}};
 enum { CORNERS = sizeof corners / sizeof corners[0] };
-
-/* The most memory that this process ever had; 0 with AddressSanitizer, whose own does not count. */
-static long peak_mib(void)
-{
-    long kib = 0;
-
-#ifndef __SANITIZE_ADDRESS__
-    FILE *file = fopen("/proc/self/status", "r");
-    char line[200];
-
-    assert_non_null(file);
-    while (kib == 0 && fgets(line, sizeof line, file)) {
-        (void)sscanf(line, "VmHWM: %ld kB", &kib);
-    }
-    fclose(file);
-    assert_true(kib > 0);
-#endif
-    return kib / 1024;
-}
 
 /* What of a region lies in these rows of the whole picture, which begin at row `top`. */
 static void copy_rows(struct image *part, const struct job_region *region, const struct image *rows,
