@@ -418,6 +418,27 @@ describe('keys', () => {
         assert.deepEqual(scale, [2, 2, 2]);
     });
 
+    test('Ctrl+Z, Delete and the wheel do nothing to what G holds', async () => {
+        await open();
+        await select('crate');
+        await field(page, 'translation x').fill('1.25');
+        await page.keyboard.press('Enter');
+        await settled(page);
+        const start = await stage.document(id);
+        await select('ball');
+        const box = await picture(page).boundingBox();
+        await page.mouse.move(box.x + 300, box.y + 300);
+        await page.keyboard.press('g');
+        await page.keyboard.press('Control+z');
+        await page.keyboard.press('Delete');
+        await page.mouse.wheel(0, -240);
+        await page.mouse.move(box.x + 380, box.y + 260, { steps: 4 });
+        await when((d) => placeOf(d, 'ball')[0] > -1.4, 'a ball at the pointer');
+        await page.getByText('Let go first').waitFor();
+        await page.keyboard.press('Escape');
+        await until(async () => (await stage.document(id)) === start, 'the document as it was');
+    });
+
     test('a press beside the picture ends what G took where it is', async () => {
         await open();
         await select('ball');

@@ -484,6 +484,26 @@ test("what is put on a shelf stays where it is, in the tree that it is of", () =
     expect(children("shelf-2")).toEqual(["foot"]);
 });
 
+test("neither the scene nor the camera changes under a hand; another motion takes over", () => {
+    const { stores, run, done } = page(["head"]);
+    const { camera } = stores.camera.getState();
+    const why = "Let go first of what is held in the picture, or press Esc.";
+    stores.document.setState({ canUndo: true });
+    stores.view.setState({ held: true });
+    for (const id of ["edit.undo", "node.delete", "hands.turn", "camera.left"]) {
+        expect(run(id)).toBe(why);
+    }
+    expect(done).toEqual([]);
+    stores.view.setState({ motion: "move" });
+    expect(run("hands.turn")).toBeNull();
+    expect(stores.view.getState().motion).toBe("turn");
+    stores.view.setState({ held: false, motion: null });
+    expect(run("edit.undo")).toBeNull();
+    expect(done).toEqual(["undo"]);
+    expect(run("camera.left")).toBeNull();
+    expect(stores.camera.getState().camera).not.toEqual(camera);
+});
+
 test("hide and show all", () => {
     const { run, stores } = page(["head"]);
     const hidden = () =>

@@ -2,6 +2,7 @@
 // @vitest-environment jsdom
 // What a hand holds in the picture while the picture changes.
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { moveCamera } from "../src/model/actions.ts";
 import { DEFAULT_CAMERA, dolly } from "../src/model/camera.ts";
 import { readDocument } from "../src/model/documentJson.ts";
 import { handlesOf } from "../src/model/handles.ts";
@@ -107,6 +108,17 @@ test("a camera that moves while a parameter is held does not change its value", 
     expect(op).toMatchObject({ op: "set", at: "/nodes/a/params/radius" });
     expect(op && "value" in op ? op.value : null).toBeCloseTo(0.5, 6);
     holding.end();
+});
+
+test("the wheel leaves the camera alone while something is held", () => {
+    const { camera } = stores.camera.getState();
+    const zoomed = dolly(camera, 0.5);
+    const { holding } = hold();
+    moveCamera({ stores }, () => zoomed);
+    expect(stores.camera.getState().camera).toBe(camera);
+    holding.end();
+    moveCamera({ stores }, () => zoomed);
+    expect(stores.camera.getState().camera).toBe(zoomed);
 });
 
 test("what was taken in one scene changes nothing in another with the same names", () => {

@@ -198,8 +198,12 @@ export function onDocument(
     };
 }
 
-/* The camera is the user's own: it changes without an edit. */
+/* The camera is the user's own: it changes without an edit. What a hand holds follows the pointer by
+ * the camera that it was taken with, so that one rests meanwhile. */
 export function moveCamera(app: Pick<App, "stores">, change: (camera: Camera) => Camera): void {
+    if (app.stores.view.getState().held) {
+        return;
+    }
     app.stores.camera.setState(({ camera }) => ({ camera: change(camera), own: true }));
 }
 

@@ -5,6 +5,7 @@ import { ABSENT, type Absent, COMMANDS, type Command, type Context } from "./com
 import { type KeyChoices, keysOf } from "./keymap.ts";
 import { isSingleKey, type KeyPress, nameOfPress } from "./keys.ts";
 import { search } from "./search.ts";
+import { text } from "./texts.ts";
 
 const BY_ID = new Map(COMMANDS.map((command) => [command.id, command]));
 
@@ -39,9 +40,16 @@ export function commandForKey(
     return isSingleKey(name) && !choices.singleKeys ? null : command;
 }
 
+/* Neither the scene nor the camera changes under a hand. */
+function whyHeld({ stores }: App, { group, takesOver }: Command): string | null {
+    const { held, motion } = stores.view.getState();
+    const waits = (group === "edit" || group === "camera") && !(takesOver && motion !== null);
+    return held && waits ? text("why.held") : null;
+}
+
 /* Runs a command unless something speaks against it; answers the reason or null. */
 export function runCommand(app: App, command: Command): string | null {
-    const reason = command.whyNot(app);
+    const reason = whyHeld(app, command) ?? command.whyNot(app);
     if (reason === null) {
         command.run(app);
     }

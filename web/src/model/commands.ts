@@ -65,6 +65,8 @@ export interface Command {
     readonly inFields: boolean | "unchanged";
     /* Not in the palette: it makes sense as a key only. */
     readonly keyOnly: boolean;
+    /* Takes the place of what keys hold in the picture. */
+    readonly takesOver: boolean;
     /* Why it cannot run now, for the tooltip; null: it can. */
     readonly whyNot: (app: App) => string | null;
     readonly run: (app: App) => void;
@@ -123,6 +125,7 @@ const row = (part: Row): Command => ({
     when: "anywhere",
     inFields: false,
     keyOnly: false,
+    takesOver: false,
     whyNot: needsScene,
     ...part,
 });
@@ -197,6 +200,7 @@ export const COMMANDS: readonly Command[] = [
             words: `${words} X Y Z digits`,
             group: "edit",
             keys: [key],
+            takesOver: true,
             whyNot: canMove(motion),
             run: show({ motion }),
         }),

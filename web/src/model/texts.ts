@@ -27,6 +27,7 @@ const TEXTS = {
     "why.clipboard": "The clipboard holds no node.",
     "why.colors": "The colours are shown.",
     "why.noLens": "The camera has no aperture: everything is sharp.",
+    "why.held": "Let go first of what is held in the picture, or press Esc.",
     "why.top": "Nothing is open.",
     "picture.noOutput": "Choose an output.",
     "picture.large": "Pictures have {most} million pixels at most.",

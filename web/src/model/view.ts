@@ -158,6 +158,8 @@ export interface View {
     readonly measured: readonly Vector[] | null;
     /* What the pointer does to the selection, with no button held; null: nothing. */
     readonly motion: Motion | null;
+    /* A hand in the picture holds something, by the pointer or by keys. */
+    readonly held: boolean;
     readonly preferences: Preferences;
 }
 
@@ -183,6 +185,7 @@ export const INITIAL_VIEW: View = {
     aiming: false,
     measured: null,
     motion: null,
+    held: false,
     preferences: PREFERENCES,
 };
 

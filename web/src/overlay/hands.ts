@@ -234,8 +234,10 @@ export class Hands {
 
     #key(event: KeyboardEvent): void {
         const hold = this.#hold;
-        const moves = hold !== null && this.#page.stores.view.getState().motion !== null;
-        const here = event.target === document.body || this.#element.contains(event.target as Node);
+        const { motion, held } = this.#page.stores.view.getState();
+        const moves = hold !== null && motion !== null;
+        const target = event.target as Node;
+        const here = !held && (target === document.body || this.#element.contains(target));
         if (moves ? this.#act(hold, event) : here && this.#corners.key(this.#handles(), event)) {
             event.preventDefault();
             event.stopImmediatePropagation();

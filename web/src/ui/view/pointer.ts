@@ -186,7 +186,16 @@ function nameOfHeld({ document: scene, view }: Stores): string {
 function beginStep({ stores, link }: Editor, what: string): Step {
     const isKept = sceneKept({ stores });
     const step = link.gesture(`${what} ${nameOfHeld(stores)}`);
-    return { ...step, edit: (ops) => isKept() && step.edit(ops) };
+    const letGo = (how: "end" | "cancel"): void => {
+        stores.view.setState({ held: false });
+        step[how]();
+    };
+    stores.view.setState({ held: true });
+    return {
+        edit: (ops) => isKept() && step.edit(ops),
+        end: () => letGo("end"),
+        cancel: () => letGo("cancel"),
+    };
 }
 
 /* What hands ask of the page: an undo step, and words. */
