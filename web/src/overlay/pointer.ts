@@ -447,9 +447,10 @@ export function attachPointer(element: HTMLElement, actions: PointerActions): ()
     };
     const onKey = (event: KeyboardEvent): void => {
         const down = event.type === "keydown";
-        if (event.code === "Space" && !isTyping(event.target)) {
-            machine.setSpace(down);
-            if (element.contains(document.activeElement)) {
+        if (event.code === "Space") {
+            const typing = isTyping(event.target);
+            machine.setSpace(down && !typing);
+            if (!typing && element.contains(document.activeElement)) {
                 event.preventDefault();
             }
         }
@@ -469,7 +470,14 @@ export function attachPointer(element: HTMLElement, actions: PointerActions): ()
     element.addEventListener("contextmenu", (event) => event.preventDefault(), options);
     window.addEventListener("keydown", onKey, { ...options, capture: true });
     window.addEventListener("keyup", onKey, { ...options, capture: true });
-    window.addEventListener("blur", () => machine.end(), options);
+    window.addEventListener(
+        "blur",
+        () => {
+            machine.setSpace(false) /* let go where nobody is told */;
+            machine.end();
+        },
+        options,
+    );
     return () => {
         clearTimeout(timer);
         machine.end();
