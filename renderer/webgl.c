@@ -97,7 +97,7 @@ static void write_columns(FILE *out, const char *name, const struct frame_unifor
 {
     struct engine_map maps[ENGINE_MAPS];
 
-    engine_maps_make(frame, NULL, 0, 0, maps);
+    engine_maps_make_columns(frame, maps);
     fprintf(out,
             "#define SPECULAR_ROWS %d\n#define IRRADIANCE_ROWS %d\nconst vec3 %s[] = vec3[](\n",
             maps[1].height, maps[2].height, name);

@@ -16,6 +16,7 @@ enum { ENGINE_LEVELS = 16 };
 /* A picture by longitude and latitude, with smaller ones of it. Linear light. */
 struct engine_map {
     int width, height, levels;
+    bool column;                     /* of each row the first texel alone is made */
     uint16_t *texels[ENGINE_LEVELS]; /* of each level, four halves for each */
     size_t bytes;                    /* of all of them */
 };
@@ -28,6 +29,10 @@ enum { ENGINE_MAPS = 3 }; /* UNIT_ENVIRONMENT_MAP, UNIT_SPECULAR_MAP, UNIT_IRRAD
  * colours. */
 void engine_maps_make(const struct frame_uniforms *frame, uint16_t *halves, int width, int height,
                       struct engine_map out[ENGINE_MAPS]);
+/* The same where the frame block's colours do not change around the vertical: of the second and the
+ * third map the first column alone. */
+void engine_maps_make_columns(const struct frame_uniforms *frame,
+                              struct engine_map out[ENGINE_MAPS]);
 void engine_maps_finish(struct engine_map maps[ENGINE_MAPS]);
 /* Width or height of a level of a picture so wide or high. */
 int engine_map_side(int side, int level);

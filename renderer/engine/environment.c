@@ -89,8 +89,8 @@ static void shrink(struct engine_map *map, int level)
     }
 }
 
-void engine_maps_make(const struct frame_uniforms *frame, uint16_t *halves, int width, int height,
-                      struct engine_map out[ENGINE_MAPS])
+static void make(const struct frame_uniforms *frame, uint16_t *halves, int width, int height,
+                 bool column, struct engine_map out[ENGINE_MAPS])
 {
     const struct engine_width *lanes = engine_widest();
 
@@ -101,6 +101,7 @@ void engine_maps_make(const struct frame_uniforms *frame, uint16_t *halves, int 
     begin(&out[0], width, height, levels_of(width > height ? width : height), halves);
     begin(&out[1], SPECULAR_WIDTH, SPECULAR_WIDTH / 2, SPECULAR_LEVELS, NULL);
     begin(&out[2], IRRADIANCE_WIDTH, IRRADIANCE_WIDTH / 2, 1, NULL);
+    out[1].column = out[2].column = column;
     if (!halves) {
         lanes->make_map(frame, out, 0, 0);
     }
@@ -111,6 +112,18 @@ void engine_maps_make(const struct frame_uniforms *frame, uint16_t *halves, int 
         lanes->make_map(frame, out, 1, level);
     }
     lanes->make_map(frame, out, 2, 0);
+}
+
+void engine_maps_make(const struct frame_uniforms *frame, uint16_t *halves, int width, int height,
+                      struct engine_map out[ENGINE_MAPS])
+{
+    make(frame, halves, width, height, false, out);
+}
+
+void engine_maps_make_columns(const struct frame_uniforms *frame,
+                              struct engine_map out[ENGINE_MAPS])
+{
+    make(frame, NULL, 0, 0, true, out);
 }
 
 void engine_maps_finish(struct engine_map maps[ENGINE_MAPS])

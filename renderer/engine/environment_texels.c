@@ -21,14 +21,15 @@ static void make_level(struct lanes *c, struct engine_map *map, int level, map_t
     const int width = engine_map_side(map->width, level);
     const int height = engine_map_side(map->height, level);
     const vf size[2] = {(vf)vi_all(width), (vf)vi_all(height)};
+    const int columns = map->column ? 1 : width, count = columns * height;
     uint16_t *to = map->texels[level];
 
-    for (int first = 0; first < width * height; first += LANES) {
+    for (int first = 0; first < count; first += LANES) {
         const vi at = first + lanes_number;
-        const vf here[2] = {(vf)(at % width), (vf)(at / width)};
+        const vf here[2] = {(vf)(at % columns), (vf)(at / columns)};
         vf color[3];
-        texel(c, at < width * height, here, size, level, color);
-        for (int i = 0; i < LANES && first + i < width * height; i++, to += 4) {
+        texel(c, at < count, here, size, level, color);
+        for (int i = 0; i < LANES && first + i < count; i++, to += 4 * (width / columns)) {
             for (int k = 0; k < 4; k++) {
                 to[k] = half_of(k < 3 ? color[k][i] : 1);
             }

@@ -437,6 +437,30 @@ static void equal_environments_are_made_once(void **state)
     free(file);
 }
 
+/* What `fieldcast shader --webgl` writes of a sky. */
+static void columns_are_the_first_of_whole_maps(void **state)
+{
+    struct frame_uniforms block = plain_block(SKY_GRADIENT);
+    struct engine_map whole[ENGINE_MAPS], columns[ENGINE_MAPS];
+
+    (void)state;
+    set3(block.zenith, 0.1F, 0.3F, 0.9F);
+    set3(block.horizon, 0.9F, 0.8F, 0.7F);
+    engine_maps_make(&block, NULL, 0, 0, whole);
+    engine_maps_make_columns(&block, columns);
+    for (int i = 1; i < ENGINE_MAPS; i++) {
+        for (int level = 0; level < whole[i].levels; level++) {
+            const int row = 4 * engine_map_side(whole[i].width, level);
+            for (int y = 0; y < engine_map_side(whole[i].height, level); y++) {
+                assert_memory_equal(columns[i].texels[level] + row * y,
+                                    whole[i].texels[level] + row * y, 4 * sizeof(uint16_t));
+            }
+        }
+    }
+    engine_maps_finish(whole);
+    engine_maps_finish(columns);
+}
+
 /* --- fog --- */
 
 /* Sums up the density in small steps. */
@@ -519,6 +543,7 @@ int main(void)
         cmocka_unit_test(nothing_jumps_at_seams_and_poles),
         cmocka_unit_test(disc_of_the_sun_gives_no_light),
         cmocka_unit_test(equal_environments_are_made_once),
+        cmocka_unit_test(columns_are_the_first_of_whole_maps),
         cmocka_unit_test(fog_adds_up_along_a_ray),
         cmocka_unit_test(fog_far),
     };
