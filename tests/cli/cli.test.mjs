@@ -314,6 +314,14 @@ test('shader prints the GLSL of a pass, whole', () => {
     assert.equal(run(['shader', write('none.json', '{}')]).status, 1);
 });
 
+test('shader takes the programs that are wanted', () => {
+    const tree = /float map\(vec3 p0\)/; // that of the scene, written out
+    const shader = (...args) => succeed(['shader', 'example:snowman', ...args]).out;
+    assert.match(shader('--programs', 'compiled'), tree);
+    assert.doesNotMatch(shader('--programs', 'interpreted'), tree);
+    assert.equal(run(['shader', 'example:snowman', '--programs', 'none']).status, 2);
+});
+
 test('schema is JSON with the registry in it', () => {
     const schema = JSON.parse(succeed(['schema']).out);
     assert.match(schema.$schema, /2020-12/);
@@ -359,6 +367,33 @@ test('render shows what it is asked for', () => {
     ];
     assert.equal(new Set(pictures).size, pictures.length);
     assert.equal(picture(), pictures[0], 'the same picture twice');
+});
+
+test('render cuts with a plane', () => {
+    // The rows of the picture that have something in them.
+    const rows = (...args) => {
+        const { out } = succeed(['render', '-', '-o', '-', '--format', 'png', '--aov', 'id', ...SMALL, ...args], { input: SPHERE, binary: true });
+        const { width, height, channels, pixels } = decodePng(out);
+        const bytes = width * channels;
+        return Array.from({ length: height }, (_, y) => y).filter((y) => pixels.subarray(y * bytes, (y + 1) * bytes).some(Boolean));
+    };
+    assert.deepEqual(rows(), [9, 10, 11, 12, 13, 14]);
+    assert.deepEqual(rows('--section-normal', '0,1,0'), [12, 13, 14]);
+    assert.deepEqual(rows('--section-offset', '0'), [12, 13, 14], 'up by default');
+    assert.deepEqual(rows('--section-normal', '0,-1,0'), [9, 10, 11, 12]); // and the cut itself
+    assert.deepEqual(rows('--section-normal', '0,1,0', '--section-offset', '2'), rows(), 'beyond it');
+    assert.deepEqual(rows('--section-normal', '0,1,0', '--section-offset', '-2'), []);
+    assert.equal(run(['render', '-', '-o', 'x.png', '--section-normal', '0,1']).status, 2);
+});
+
+test('the quality of a JPEG is that of its table', () => {
+    const jpeg = (...args) => succeed(['render', 'example:csg', '-o', '-', '--format', 'jpg', ...SMALL, ...args], { binary: true }).out;
+    const table = (bytes) => [...bytes.subarray(bytes.indexOf(Buffer.from([0xff, 0xdb])) + 5).subarray(0, 64)];
+    assert.deepEqual(new Set(table(jpeg('--quality', '100'))), new Set([1]));
+    assert.deepEqual(new Set(table(jpeg('--quality', '1'))), new Set([255]));
+    assert.deepEqual(table(jpeg('--quality', '90')).slice(0, 4), [3, 2, 2, 3]);
+    assert.ok(jpeg().equals(jpeg('--quality', '90')), 'by default');
+    assert.equal(run(['render', 'example:csg', '-o', 'x.jpg', '--quality', '101']).status, 2);
 });
 
 test('the camera of the command line changes the document\'s', () => {

@@ -77,6 +77,31 @@ test('--steps tells what became of each pair', () => {
     assert.equal(run(...args).err, '');
 });
 
+test('--criteria decides which pairs are left out, never the basis', () => {
+    const counted = (...options) => {
+        const { basis: elements, counts } = basis('x^2+y^2+z^2-1', 'x^2+z^2-y', 'x-z', ...options);
+        assert.deepEqual(texts(elements), ['x - z', '2*z^2 - y', 'y^2 + y - 1']);
+        return [counts.made, counts.coprime, counts.chain, counts.zero];
+    };
+    assert.deepEqual(counted('--criteria', 'both'), [10, 7, 1, 0]);
+    assert.deepEqual(counted('--criteria', 'coprime'), [10, 7, 0, 1]);
+    assert.deepEqual(counted('--criteria', 'chain'), [10, 0, 5, 3]);
+    assert.deepEqual(counted('--criteria', 'none'), [10, 0, 0, 8]);
+    assert.deepEqual(counted(), counted('--criteria', 'both'));
+    assert.match(run('x', '--criteria', 'all').err, /--criteria: 'all' is none of both, coprime, chain, none/);
+});
+
+test('--strategy decides which pair comes next', () => {
+    const pairs = (...options) => {
+        const { err } = run('x^3-2*x*y', 'x^2*y-2*y^2+x', 'x*z-y^3', '--steps', ...options);
+        return err.trim().split('\n', 3).map((line) => JSON.parse(line).pair);
+    };
+    assert.deepEqual(pairs('--strategy', 'normal'), [[0, 1], [1, 3], [2, 4]]);
+    assert.deepEqual(pairs('--strategy', 'sugar'), [[0, 1], [1, 3], [0, 3]]);
+    assert.deepEqual(pairs('--strategy', 'first'), [[0, 1], [0, 2], [1, 2]]);
+    assert.deepEqual(pairs(), pairs('--strategy', 'normal'));
+});
+
 const REFUSED = [
     ['a name', ['x+?'], /^\/generators:1:3: /],
     ['the third line', ['x', 'y', 'x*(y'], /^\/generators:3:5: .*in line 3, column 3/],

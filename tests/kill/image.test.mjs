@@ -2,6 +2,7 @@
 // Pictures of environments that are small files and large work, or end whoever reads them: others
 // go on meanwhile.
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
 import path from 'node:path';
 import { after, test } from 'node:test';
 import {
@@ -120,6 +121,19 @@ test('a small file of a large picture', async (t) => {
     assert.equal(await counter(daemon, 'worker_restarts_total'), restarts, 'no restart');
     // 64 MiB of halves, the sums of two rows, what the file itself takes, and as much again.
     assert.ok(most - memory < 160 * MIB, `${(most - memory) / MIB} MiB`);
+});
+
+test('the render process may take so much memory as is said, beyond what it has begun with', async (t) => {
+    const most = () => /^Max address space +(\S+) +(\S+)/m.exec(fs.readFileSync(`/proc/${daemon.worker()}/limits`, 'utf8')).slice(1);
+    await start(undefined, ['--worker-memory', '300']);
+    t.after(stop);
+    const [soft, hard] = most();
+    const peak = 1024 * Number(/^VmPeak:\s+(\d+)/m.exec(fs.readFileSync(`/proc/${daemon.worker()}/status`, 'utf8'))[1]);
+    assert.equal(soft, hard);
+    assert.ok(Number(soft) > 300 * MIB && Number(soft) <= peak + 300 * MIB, `${soft} bytes, ${peak} at most so far`);
+    await stop();
+    await start();
+    assert.deepEqual(most(), ['unlimited', 'unlimited']);
 });
 
 test('a small file of a large picture, where the render process has little memory', async (t) => {

@@ -172,6 +172,36 @@ static void picks_list_what_lies_behind(void **state)
     pick_field_unref(field);
 }
 
+/* Every node is left once for the one behind it: the first ones of them are told. */
+static void a_pick_lists_so_many_nodes(void **state)
+{
+    char text[8192];
+    int used = snprintf(text, sizeof text,
+                        "{'format':'fieldcast/1',"
+                        "'camera':{'position':[0,0,5],'target':[0,0,0]},"
+                        "'root':{'id':'all','type':'union','children':[");
+
+    (void)state;
+    for (int i = 0; i < LIMIT_PICK_THROUGH + 3; i++) {
+        used += snprintf(text + used, sizeof text - (size_t)used,
+                         "%s{'id':'wall-%d','type':'box','params':{'size':[1,1,0.1]},"
+                         "'transform':{'translation':[0,0,%d]}}",
+                         i ? "," : "", i, -i);
+    }
+    snprintf(text + used, sizeof text - (size_t)used, "]}}");
+    struct pick_field *field = make_field(text);
+    const struct pick_result hit = look_through(field, 320, 180);
+
+    assert_int_equal(hit.through_count, LIMIT_PICK_THROUGH);
+    for (int i = 0; i < LIMIT_PICK_THROUGH; i++) {
+        char id[24];
+
+        snprintf(id, sizeof id, "wall-%d", i);
+        assert_string_equal(hit.through[i], id);
+    }
+    pick_field_unref(field);
+}
+
 static void any_camera_can_pick(void **state)
 {
     struct pick_field *field = make_field(ball);
@@ -317,6 +347,7 @@ int main(void)
         cmocka_unit_test(picks_find_what_is_isolated),
         cmocka_unit_test(picks_find_what_is_cut),
         cmocka_unit_test(picks_hit_the_floor),
+        cmocka_unit_test(a_pick_lists_so_many_nodes),
         cmocka_unit_test(picks_list_what_lies_behind),
         cmocka_unit_test(any_camera_can_pick),
         cmocka_unit_test(work_is_bounded),
