@@ -8,9 +8,11 @@ import type { Author } from "../src/link/author.ts";
 import { RestError } from "../src/link/rest.ts";
 import type { Schema } from "../src/model/schema.ts";
 import { createStores, EMPTY_DOCUMENT_STATE, IDLE_LINK } from "../src/model/stores.ts";
+import { useDrop } from "../src/ui/drop/drop.ts";
 import { takeFiles } from "../src/ui/drop/take.ts";
 import type { Editor } from "../src/ui/editor.ts";
 import AssetField from "../src/ui/fields/Asset.tsx";
+import type { PageFile } from "../src/ui/files.ts";
 import { take } from "../src/ui/library/actions.ts";
 import { Opener } from "../src/ui/opening.ts";
 import { EditorContext } from "../src/ui/state.ts";
@@ -154,4 +156,97 @@ test("an entry of the library that comes late is not put into another scene", as
     answers.answer({ id: "e" });
     await settled();
     expect(reads).not.toHaveBeenCalled();
+});
+
+/* What the page has said of files. */
+const said = (editor: Editor): readonly string[] =>
+    editor.stores.notices.getState().notices.map(({ message }) => message);
+
+/* jsdom reads no files. */
+const HERE = Object.assign(new File([""], "here.json"), {
+    text: async () => '{"format": "fieldcast/1"}',
+});
+const GONE = Object.assign(new File([""], "gone.json"), {
+    text: () => Promise.reject(new DOMException("it is gone", "NotFoundError")),
+});
+
+test("a file that cannot be read is named, and nothing is opened", async () => {
+    const { editor } = editorIn(later());
+    await takeFiles(editor, [
+        { path: "a/here.json", file: HERE },
+        { path: "a/gone.json", file: GONE },
+    ]);
+    expect(said(editor)).toEqual(["a/gone.json could not be read. Nothing was opened."]);
+    expect(editor.stores.view.getState().offered).toEqual([]);
+});
+
+/* A folder of the browser, whose files are read in two pieces. */
+function folder(files: readonly File[]): DataTransfer {
+    const entries = files.map((file) => ({
+        ...{ name: file.name, fullPath: `/a/${file.name}`, isFile: true, isDirectory: false },
+        file: (take: (file: File) => void, fail: () => void) =>
+            file === GONE ? fail() : take(file),
+    }));
+    const pieces = [entries.slice(0, 2), entries.slice(2), []];
+    const readEntries = (take: (piece: unknown) => void) => take(pieces.shift());
+    const top = {
+        ...{ name: "a", fullPath: "/a", isDirectory: true },
+        createReader: () => ({ readEntries }),
+    };
+    const items = [{ webkitGetAsEntry: () => top }];
+    return { items, files: [], types: ["Files"] } as unknown as DataTransfer;
+}
+
+function Target({ onFiles }: { onFiles: Parameters<typeof useDrop>[0] }) {
+    useDrop(onFiles);
+    return null;
+}
+
+/* Drops a folder on the page; answers the paths that it takes, null: none. */
+async function dropFolder(editor: Editor, files: readonly File[]) {
+    let taken: readonly string[] | null = null;
+    const onFiles = (found: readonly PageFile[]): void => {
+        taken = found.map(({ path }) => path);
+    };
+    vi.stubGlobal("IS_REACT_ACT_ENVIRONMENT", true);
+    const root = createRoot(document.createElement("div"));
+    await act(async () =>
+        root.render(
+            <EditorContext.Provider value={editor}>
+                <Target onFiles={onFiles} />
+            </EditorContext.Provider>,
+        ),
+    );
+    const drop = Object.assign(new Event("drop"), { dataTransfer: folder(files) });
+    await act(async () => void window.dispatchEvent(drop));
+    await vi.advanceTimersByTimeAsync(0);
+    await act(async () => root.unmount());
+    vi.unstubAllGlobals();
+    return taken as readonly string[] | null;
+}
+
+const jsonFiles = (count: number): File[] =>
+    Array.from({ length: count }, (_, i) => new File(["{}"], `${i}.json`));
+
+test("files of a folder that are too many are left out, which is said", async () => {
+    const { editor } = editorIn(later());
+    const notes = new File([""], "notes.md");
+    expect(await dropFolder(editor, [...jsonFiles(500), notes])).toHaveLength(500);
+    expect(said(editor)).toEqual([]);
+    expect(await dropFolder(editor, [...jsonFiles(501), notes])).toHaveLength(500);
+    expect(said(editor)).toEqual([
+        "The folder holds more than 500 JSON files: only the first 500 were taken.",
+    ]);
+});
+
+test("a file of a folder that cannot be read is named, and none is taken", async () => {
+    const { editor } = editorIn(later());
+    expect(await dropFolder(editor, [...jsonFiles(1), GONE])).toBeNull();
+    expect(said(editor)).toEqual(["a/gone.json could not be read. Nothing was opened."]);
+});
+
+test("a folder that holds nothing to open says so", async () => {
+    const { editor } = editorIn(later());
+    await takeFiles(editor, []);
+    expect(said(editor)).toEqual(["There is no file that could be read: JSON is expected."]);
 });

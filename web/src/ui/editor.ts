@@ -87,7 +87,7 @@ function upload(editor: Editor, folder: boolean): void {
         if (inScene && !folder) {
             await takeFiles(editor, files);
         } else {
-            await openFiles(editor, await readFiles(files));
+            await openFiles(editor, await readFiles(editor, files));
         }
     });
 }

@@ -5,8 +5,19 @@ import { printDocument } from "../model/documentJson.ts";
 import type { Json } from "../model/json.ts";
 import { printText } from "../model/jsonText.ts";
 import { addNotice } from "../model/stores.ts";
-import { type PageFile, pathOf } from "./drop/drop.ts";
 import type { Editor } from "./editor.ts";
+import { t } from "./texts.ts";
+
+/* A file by its path inside of what was chosen or dropped. */
+export interface PageFile {
+    readonly path: string;
+    readonly file: File;
+}
+
+export const pathOf = (file: File): PageFile => ({
+    path: file.webkitRelativePath || file.name,
+    file,
+});
 
 /* The server's own bytes where it can be reached, else what this page holds. */
 export async function saveDocument(editor: Editor): Promise<void> {
@@ -56,4 +67,24 @@ export function report(editor: Editor, error: unknown, before = ""): void {
         message: before === "" ? message : `${before} ${message}`,
         place: rest?.place ?? "",
     });
+}
+
+const MOST_NAMES = 3;
+
+/* The first names of files. */
+export function fewNames(paths: readonly string[]): string {
+    const more = paths.length > MOST_NAMES ? ", …" : "";
+    return paths.slice(0, MOST_NAMES).join(", ") + more;
+}
+
+export function tellFiles(editor: Editor, message: string): void {
+    addNotice(editor.stores.notices, { level: "warning", code: "files", message });
+}
+
+/* Says which files could not be read; false: all could. */
+export function tellUnread(editor: Editor, paths: readonly string[]): boolean {
+    if (paths.length > 0) {
+        tellFiles(editor, t("files.unread", { names: fewNames(paths) }));
+    }
+    return paths.length > 0;
 }

@@ -3,9 +3,8 @@
  * format, which name each other, one together. */
 import { RestError } from "../link/rest.ts";
 import { addNotice } from "../model/stores.ts";
-import type { PageFile } from "./drop/drop.ts";
 import type { Editor } from "./editor.ts";
-import { report } from "./files.ts";
+import { type PageFile, report, tellUnread } from "./files.ts";
 import { goTo } from "./route.ts";
 import { t } from "./texts.ts";
 
@@ -34,9 +33,21 @@ const READ = /\.(json|txt|glsl|hlsl|slang)$/i;
 const AROUND = 2;
 const MOST_NOTES = 2;
 
-export async function readFiles(files: readonly PageFile[]): Promise<TextFile[]> {
-    const read = files.filter(({ path }) => READ.test(path) || files.length === 1);
-    return Promise.all(read.map(async ({ path, file }) => ({ path, text: await file.text() })));
+/* Null: one could not be read, since it is gone or protected. That was said. */
+export async function readFiles(
+    editor: Editor,
+    files: readonly PageFile[],
+): Promise<readonly TextFile[] | null> {
+    const wanted = files.filter(({ path }) => READ.test(path) || files.length === 1);
+    const unread: string[] = [];
+    const texts: TextFile[] = [];
+    for (const { path, file } of wanted) {
+        await file.text().then(
+            (text) => texts.push({ path, text }),
+            () => unread.push(path),
+        );
+    }
+    return tellUnread(editor, unread) ? null : texts;
 }
 
 /* A document of ours, also a broken one. */
@@ -96,13 +107,17 @@ async function importFiles(editor: Editor, files: readonly TextFile[], scene: st
 }
 
 /* Makes scenes of files and opens the last one. A problem is shown on the start page, else told.
- * `scene`: which, where files of the other format hold several. */
+ * `files` null: it was said already that they cannot be read. `scene`: which, where files of the other
+ * format hold several. */
 export async function openFiles(
     editor: Editor,
-    files: readonly TextFile[],
+    files: readonly TextFile[] | null,
     onProblem?: (problem: ImportProblem) => void,
     scene: string | null = null,
 ): Promise<void> {
+    if (files === null) {
+        return;
+    }
     if (files.length === 0) {
         report(editor, new Error(t("import.nothing")));
         return;

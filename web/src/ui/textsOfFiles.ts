@@ -29,6 +29,7 @@ export const FILE_TEXTS = {
     "import.choose": "These files hold several scenes. Choose the one to open.",
     "import.notes": "{count} more things were put right while reading.",
     "import.nothing": "There is no file that could be read: JSON is expected.",
+    "files.unread": "{names} could not be read. Nothing was opened.",
     "files.refused": "{name} was not opened:",
     "text.title": "Scene as text",
     "text.label": "The scene as JSON. Escape, then Tab leaves it.",
@@ -66,6 +67,8 @@ export const FILE_TEXTS = {
     "drop.open.one": "Open as a new scene",
     "drop.openDoc": "This scene stays as it is.",
     "drop.notInserted": "{name} was not inserted. {reason}",
+    "drop.most":
+        "The folder holds more than {count} JSON files: only the first {count} were taken.",
     "drop.onePicture": "The backdrop is one picture: left out were {names}.",
     "drop.strange":
         "Nothing can be done with {names}: scenes are JSON files, pictures of the backdrop HDR, PNG or JPEG.",

@@ -2,20 +2,13 @@
 /* Files and folders dropped anywhere on the page; answers whether some hover now. What takes files
  * itself has `data-takes-files`. */
 import { useEffect, useRef, useState } from "react";
+import type { Editor } from "../editor.ts";
+import { type PageFile, pathOf, tellFiles, tellUnread } from "../files.ts";
+import { useEditor } from "../state.ts";
+import { t } from "../texts.ts";
 
 /* More files than this are no folder of a scene. */
 const MOST_FILES = 500;
-
-/* A file by its path inside of what was chosen or dropped. */
-export interface PageFile {
-    readonly path: string;
-    readonly file: File;
-}
-
-export const pathOf = (file: File): PageFile => ({
-    path: file.webkitRelativePath || file.name,
-    file,
-});
 
 const takesItself = ({ target }: DragEvent): boolean =>
     target instanceof Element && target.closest("[data-takes-files]") !== null;
@@ -24,6 +17,7 @@ const holdsFile = ({ dataTransfer }: DragEvent): boolean =>
     dataTransfer?.types.includes("Files") ?? false;
 
 export function useDrop(onFiles: (files: readonly PageFile[]) => void): boolean {
+    const editor = useEditor();
     const [hovering, setHovering] = useState(false);
     const latest = useRef(onFiles);
     latest.current = onFiles;
@@ -53,46 +47,73 @@ export function useDrop(onFiles: (files: readonly PageFile[]) => void): boolean 
                 if (event.dataTransfer && holdsFile(event) && !takesItself(event)) {
                     event.preventDefault();
                     event.stopPropagation();
-                    void dropped(event.dataTransfer).then((files) => latest.current(files));
+                    void dropped(editor, event.dataTransfer).then(
+                        (files) => files && latest.current(files),
+                    );
                 }
             },
             options,
         );
         return () => listening.abort();
-    }, []);
+    }, [editor]);
     return hovering;
 }
 
-/* What a drop holds has to be asked for at once; folders are read afterwards. */
-async function dropped(data: DataTransfer): Promise<readonly PageFile[]> {
+/* What a drop holds has to be asked for at once; folders are read afterwards. Null: it was said that
+ * something could not be read. */
+async function dropped(editor: Editor, data: DataTransfer): Promise<readonly PageFile[] | null> {
     const entries = [...data.items].map((item) => item.webkitGetAsEntry?.() ?? null);
     const files = [...data.files];
     if (!entries.some((entry) => entry?.isDirectory)) {
         return files.map(pathOf);
     }
-    const found: PageFile[] = [];
+    const found: Found = { files: [], unread: [], more: false };
     for (const entry of entries) {
         if (entry) {
             await collect(entry, found);
         }
     }
-    return found;
+    if (found.more) {
+        tellFiles(editor, t("drop.most", { count: MOST_FILES }));
+    }
+    return tellUnread(editor, found.unread) ? null : found.files;
 }
 
-async function collect(entry: FileSystemEntry, found: PageFile[]): Promise<void> {
-    if (found.length >= MOST_FILES || entry.name.startsWith(".")) {
+interface Found {
+    readonly files: PageFile[];
+    /* Paths of what the browser could not read. */
+    readonly unread: string[];
+    /* There are more files than are taken. */
+    more: boolean;
+}
+
+const innerPath = ({ fullPath }: FileSystemEntry): string => fullPath.replace(/^\//, "");
+
+async function collect(entry: FileSystemEntry, found: Found): Promise<void> {
+    if (found.more || entry.name.startsWith(".")) {
         return;
     }
-    if (entry.isFile) {
-        const file = await new Promise<File>((take, fail) =>
-            (entry as FileSystemFileEntry).file(take, fail),
-        );
-        if (/\.json$/i.test(file.name)) {
-            found.push({ path: entry.fullPath.replace(/^\//, ""), file });
+    try {
+        if (entry.isDirectory) {
+            await collectFolder(entry as FileSystemDirectoryEntry, found);
+        } else if (/\.json$/i.test(entry.name)) {
+            await collectFile(entry as FileSystemFileEntry, found);
         }
-        return;
+    } catch {
+        found.unread.push(innerPath(entry));
     }
-    const reader = (entry as FileSystemDirectoryEntry).createReader();
+}
+
+async function collectFile(entry: FileSystemFileEntry, found: Found): Promise<void> {
+    found.more = found.files.length === MOST_FILES;
+    if (!found.more) {
+        const file = await new Promise<File>((take, fail) => entry.file(take, fail));
+        found.files.push({ path: innerPath(entry), file });
+    }
+}
+
+async function collectFolder(entry: FileSystemDirectoryEntry, found: Found): Promise<void> {
+    const reader = entry.createReader();
     /* A folder is read in pieces, until a piece is empty. */
     for (;;) {
         const piece = await new Promise<FileSystemEntry[]>((take, fail) =>

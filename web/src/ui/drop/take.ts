@@ -3,18 +3,16 @@
  * files of the other format become a scene. */
 import { addNotice } from "../../model/stores.ts";
 import type { Editor } from "../editor.ts";
-import { report } from "../files.ts";
+import { fewNames, type PageFile, report, tellFiles } from "../files.ts";
 import { type ImportProblem, isDocument, openFiles, readFiles } from "../import.ts";
 import { sceneKept } from "../opening.ts";
 import { t } from "../texts.ts";
-import type { PageFile } from "./drop.ts";
 
 export const EDITOR_FILES = ".json,.hdr,.png,.jpg,.jpeg,application/json,image/png,image/jpeg";
 
 const PICTURE = /\.(hdr|png|jpe?g)$/i;
 const JPEG = /\.jpe?g$/i;
 const JSON_FILE = /\.(json|txt)$/i;
-const MOST_NAMES = 3;
 
 export async function takeFiles(
     editor: Editor,
@@ -35,28 +33,23 @@ export async function takeFiles(
     }
     if (more.length > 0) {
         const names = more.map(({ path }) => path).join(", ");
-        tell(editor, t("drop.onePicture", { names }));
+        tellFiles(editor, t("drop.onePicture", { names }));
     }
-    const texts = await readFiles(jsons);
+    const texts = (await readFiles(editor, jsons)) ?? [];
     const scenes = texts.filter(isDocument);
     const rest = texts.filter((text) => !isDocument(text));
     if (scenes.length > 0) {
         editor.stores.view.setState({ offered: scenes });
     }
-    if (rest.length > 0) {
+    if (rest.length > 0 || files.length === 0) {
         await openFiles(editor, rest, onProblem);
     }
 }
 
-function tell(editor: Editor, message: string): void {
-    addNotice(editor.stores.notices, { level: "warning", code: "files", message });
-}
-
 function tellStrange(editor: Editor, files: readonly PageFile[]): void {
     if (files.length > 0) {
-        const names = files.slice(0, MOST_NAMES).map(({ path }) => path);
-        const more = files.length > MOST_NAMES ? ", …" : "";
-        tell(editor, t("drop.strange", { names: names.join(", ") + more }));
+        const names = fewNames(files.map(({ path }) => path));
+        tellFiles(editor, t("drop.strange", { names }));
     }
 }
 

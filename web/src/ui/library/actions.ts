@@ -16,6 +16,7 @@ import type { SavedList } from "../../model/places.ts";
 import { addNotice } from "../../model/stores.ts";
 import type { Editor } from "../editor.ts";
 import { chooseFiles, report, SCENE_FILES } from "../files.ts";
+import { readFiles } from "../import.ts";
 import { sceneKept } from "../opening.ts";
 import { t } from "../texts.ts";
 
@@ -140,10 +141,10 @@ export function exportLibrary(editor: Editor): void {
 }
 
 export function importLibrary(editor: Editor): void {
-    chooseFiles(SCENE_FILES, (files) => {
-        for (const { file } of files) {
+    chooseFiles(SCENE_FILES, async (files) => {
+        for (const { text } of (await readFiles(editor, files)) ?? []) {
             void change(editor, async () => {
-                const { added, rows } = await editor.rest.library.importFile(await file.text());
+                const { added, rows } = await editor.rest.library.importFile(text);
                 const known = rows.length - added;
                 const more = known > 0 ? ` ${t("library.known", { count: known })}` : "";
                 tell(editor, t("library.imported", { count: added }) + more);

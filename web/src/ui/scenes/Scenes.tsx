@@ -4,8 +4,8 @@ import { CircleHelp, FolderUp, Plus, Upload } from "lucide-react";
 import { useCallback, useEffect, useRef, useState } from "react";
 import type { ExampleEntry, SceneEntry } from "../../link/rest.ts";
 import { search } from "../../model/search.ts";
-import { type PageFile, useDrop } from "../drop/drop.ts";
-import { chooseFiles, report, SCENE_FILES } from "../files.ts";
+import { useDrop } from "../drop/drop.ts";
+import { chooseFiles, type PageFile, report, SCENE_FILES } from "../files.ts";
 import { type ImportProblem, openFiles, readFiles } from "../import.ts";
 import { ThemeButton } from "../layout/Bar.tsx";
 import { goTo } from "../route.ts";
@@ -103,7 +103,7 @@ export default function ScenesPage() {
     const { leaving, leave, stay, remove } = useLeaving(reload);
     const [problem, setProblem] = useState<ImportProblem | null>(null);
     const take = (files: readonly PageFile[]): void =>
-        void readFiles(files).then((texts) => openFiles(editor, texts, setProblem));
+        void readFiles(editor, files).then((texts) => openFiles(editor, texts, setProblem));
     const dropping = useDrop(take);
     const choose = (folder: boolean) => (): void =>
         chooseFiles(folder ? "folder" : SCENE_FILES, take);
