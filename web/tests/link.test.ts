@@ -106,3 +106,25 @@ test("what a scene that was left is refused for does not close the next one", as
     expect(stores.link.getState().connection).toBe("live");
     expect(second.readyState).toBe(FakeSocket.OPEN);
 });
+
+test("what is cancelled is undone when the server has taken what was on its way, else not", async () => {
+    link.connect("a", SCHEMA, AUTHOR);
+    const { socket } = await greeting(1);
+    socket.welcome(4);
+    socket.say({ type: "document", revision: 4, document: SCENE });
+    const asked = () => socket.sent.filter(({ type }) => type === "edit" || type === "undo");
+    const dragAndCancel = async (count: number): Promise<void> => {
+        const gesture = link.gesture("drag");
+        gesture.edit([{ op: "set", at: "/nodes/head/params/radius", value: count }]);
+        await vi.waitFor(() => expect(asked()).toHaveLength(count));
+        gesture.cancel();
+        expect(asked()).toHaveLength(count);
+    };
+    await dragAndCancel(1);
+    socket.say({ type: "applied", edit: 1, revision: 5, durable: true, undo: 1, redo: 0 });
+    expect(asked().slice(1)).toEqual([{ type: "undo", edit: 2 }]);
+    await dragAndCancel(3);
+    socket.say({ type: "rejected", edit: 3, code: "limit", place: "", message: "no" });
+    expect(asked()).toHaveLength(3);
+    expect(stores.document.getState().history.undo).toHaveLength(1);
+});

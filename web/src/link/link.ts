@@ -299,6 +299,7 @@ class SceneLink implements Link {
             return;
         }
         const { shown } = this.#session;
+        const heldBack = sessions.isHeldBack(this.#session);
         const { session, events } = sessions.receive(this.#session, message);
         this.#session = session;
         if (shown && session.shown && isOfOthers(events)) {
@@ -311,7 +312,7 @@ class SceneLink implements Link {
         if (fits && epoch !== null && confirmed !== null) {
             this.#host.send({ kind: "at", revision, epoch });
         }
-        if (message.type === "welcome") {
+        if (message.type === "welcome" || (heldBack && !sessions.isHeldBack(session))) {
             this.#flush();
         }
         this.#publish();

@@ -17,6 +17,7 @@ export interface PendingEdit {
     readonly edit: number;
     readonly kind: "edit" | "undo" | "redo";
     readonly ops: readonly Operation[];
+    /* Of an undo: the group that it takes back, where it is for one. */
     readonly group: string;
     readonly label: string;
     readonly sent: boolean;
@@ -217,17 +218,33 @@ function outgoing(pending: PendingEdit): OutgoingEdit {
     };
 }
 
+/* An undo of a group waits for what of the group is not settled: all of it may be refused, and an
+ * older step would be the newest. */
+function waits({ pending }: Session, { kind, group }: PendingEdit): boolean {
+    return kind === "undo" && group !== "" && pending.some((entry) => isOfGroup(entry, group));
+}
+
+/* Does something of ours wait, with all that is behind it, for an answer of the server? */
+export function isHeldBack(session: Session): boolean {
+    return session.pending.some((entry) => waits(session, entry));
+}
+
 /* Takes what is to be sent now; nothing while offline. */
 export function takeOutbox(session: Session): {
     readonly session: Session;
     readonly messages: readonly OutgoingEdit[];
 } {
-    const unsent = session.pending.filter((pending) => !pending.sent);
-    if (!session.online || unsent.length === 0) {
+    const first = session.pending.findIndex((entry) => waits(session, entry));
+    const ready = first < 0 ? session.pending : session.pending.slice(0, first);
+    const unsent = ready.filter((pending) => !pending.sent);
+    const last = unsent.at(-1);
+    if (!session.online || !last) {
         return { session, messages: [] };
     }
-    const pending = session.pending.map((entry) => (entry.sent ? entry : { ...entry, sent: true }));
-    const sentGroup = unsent.at(-1)?.group ?? "";
+    const pending = session.pending.map((entry) =>
+        unsent.includes(entry) ? { ...entry, sent: true } : entry,
+    );
+    const sentGroup = last.kind === "edit" ? last.group : "";
     return { session: { ...session, pending, sentGroup }, messages: unsent.map(outgoing) };
 }
 
@@ -246,7 +263,18 @@ export function isStep(session: Session, group: string): boolean {
 export function cancelGroup(session: Session, group: string): Session {
     const pending = session.pending.filter((entry) => entry.sent || !isOfGroup(entry, group));
     const dropped = rebase({ ...session, pending });
-    return isStep(session, group) ? askHistory(dropped, "undo") : dropped;
+    return isStep(session, group)
+        ? queue(dropped, { kind: "undo", ops: [], group, label: "" })
+        : dropped;
+}
+
+/* Without undos of groups of which nothing was applied. */
+function dropIdle(session: Session): Session {
+    const isIdle = (entry: PendingEdit): boolean =>
+        entry.kind === "undo" &&
+        !["", session.appliedGroup].includes(entry.group) &&
+        !waits(session, entry);
+    return { ...session, pending: session.pending.filter((entry) => entry.sent || !isIdle(entry)) };
 }
 
 /* The connection is gone: nothing is lost, what was sent may have to be sent again. */
@@ -436,7 +464,7 @@ function rejected(
         ...(line === undefined ? {} : { line }),
         ...(column === undefined ? {} : { column }),
     };
-    let next = without(session, message.edit);
+    let next = dropIdle(without(session, message.edit));
     if (message.skipped) {
         return { session: rebase(stepGone(next, pending)), events: skipped(message.skipped) };
     }
