@@ -128,6 +128,38 @@ test("code that the server refused stays, with the reason", async () => {
     expect([text(), fault()]).toEqual(["mine", "no room"]);
 });
 
+const closeCode = (editor: Editor) => show(<EditorContext value={editor}>{null}</EditorContext>);
+
+test("code that was refused is there again when its panel opens again, in its scene", async () => {
+    const { editor, stores } = setUp();
+    const long = "/".repeat(21);
+    const { write } = await openCode(editor);
+    await write(long);
+    await closeCode(editor);
+    stores.document.setState({ scene: "other" });
+    expect((await openCode(editor)).text()).toBe("old");
+    await closeCode(editor);
+    stores.document.setState({ scene: null });
+    const { text, write: mend } = await openCode(editor);
+    expect([text(), fault()]).toEqual([long, "21 bytes are above the maximum 20"]);
+    await mend("short");
+    await act(async () => stores.document.setState({ saved: true }));
+    await closeCode(editor);
+    expect((await openCode(editor)).text()).toBe("short");
+});
+
+test("code that the server refuses after its panel was closed is there again", async () => {
+    const { editor, stores } = setUp();
+    const { write } = await openCode(editor);
+    await write("mine");
+    await closeCode(editor);
+    const problem = { code: "limit", place: CODE, message: "no room" };
+    stores.document.setState({ problems: new Map([[CODE, problem]]), document: scene });
+    stores.document.setState({ saved: true });
+    const { text } = await openCode(editor);
+    expect([text(), fault()]).toEqual(["mine", "no room"]);
+});
+
 test("code follows what others write and what is undone", async () => {
     const { editor, stores } = setUp();
     const { text, write } = await openCode(editor);

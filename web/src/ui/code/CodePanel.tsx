@@ -244,6 +244,33 @@ function useRefusal(place: string, text: string) {
     return { sent, refusal };
 }
 
+/* A text that was not taken, or not settled yet, stays while the panel is closed. */
+interface Kept {
+    readonly text: string;
+    /* Null: it was on its way. */
+    readonly problem: Problem | null;
+}
+const keptTexts = new WeakMap<Editor, Map<string, Kept>>();
+
+/* What an editor keeps, by scene and place. */
+function keptOf(editor: Editor, place: string) {
+    const texts = keptTexts.get(editor) ?? new Map<string, Kept>();
+    keptTexts.set(editor, texts);
+    const { stores } = editor;
+    const key = `${stores.document.getState().scene} ${place}`;
+    return {
+        put: (kept: Kept): void => void texts.set(key, kept),
+        /* What was refused, with the reason; it is kept no longer. */
+        take: (): { text: string; problem: Problem } | null => {
+            const kept = texts.get(key);
+            texts.delete(key);
+            const told = stores.document.getState().problems.get(place);
+            const problem = kept?.problem ?? (told && !isStanding(told) ? told : null);
+            return kept && problem ? { text: kept.text, problem } : null;
+        },
+    };
+}
+
 /* The editor, its text kept equal to the document's; `waiting`: something was not sent yet. A text
  * that is not taken stays until it is mended, with the reason in `refused`. */
 function useCode(place: string, text: string) {
@@ -253,6 +280,7 @@ function useCode(place: string, text: string) {
     const [code, setCode] = useState<CodeEditor | null>(null);
     const [waiting, setWaiting] = useState(false);
     const [refused, setRefused] = useState<Problem | null>(null);
+    const reason = useRef<Problem | null>(null);
     const { sent, refusal } = useRefusal(place, text);
     const latest = useRef(text);
     latest.current = text;
@@ -261,6 +289,11 @@ function useCode(place: string, text: string) {
         if (parent === null) {
             return;
         }
+        const kept = keptOf(editor, place);
+        const refuse = (problem: Problem | null): void => {
+            reason.current = problem;
+            setRefused(problem);
+        };
         let gone = false;
         let mounted: CodeEditor | null = null;
         let stop: () => void = () => undefined;
@@ -270,7 +303,7 @@ function useCode(place: string, text: string) {
             }
             const send = (value: string, gesture: Gesture): void => {
                 const problem = whyNot(editor, place, value);
-                setRefused(problem);
+                refuse(problem);
                 if (problem === null && gesture.edit([{ op: "set", at: place, value }])) {
                     sent.current = value;
                 }
@@ -282,8 +315,10 @@ function useCode(place: string, text: string) {
                 setWaiting,
             );
             stop = sender.stop;
+            const old = kept.take();
+            refuse(old?.problem ?? null);
             mounted = mountCode(parent, {
-                text: latest.current,
+                text: old?.text ?? latest.current,
                 label: t("code.label"),
                 onChange: sender.changed,
                 onSend: sender.now,
@@ -294,12 +329,16 @@ function useCode(place: string, text: string) {
         return () => {
             gone = true;
             stop();
+            if (mounted !== null && (reason.current !== null || sent.current !== null)) {
+                kept.put({ text: mounted.text(), problem: reason.current });
+            }
             mounted?.destroy();
         };
     }, [editor, link, place, sent]);
     useEffect(() => {
         if (refusal !== null) {
             sent.current = null;
+            reason.current = refusal;
             setRefused(refusal);
         } else if (code !== null && !waiting && refused === null && code.text() !== text) {
             code.setText(text);
