@@ -127,4 +127,5 @@ test("what is cancelled is undone when the server has taken what was on its way,
     socket.say({ type: "rejected", edit: 3, code: "limit", place: "", message: "no" });
     expect(asked()).toHaveLength(3);
     expect(stores.document.getState().history.undo).toHaveLength(1);
+    expect(stores.notices.getState().notices).toEqual([]);
 });

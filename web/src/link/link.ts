@@ -344,7 +344,9 @@ class SceneLink implements Link {
     #event(event: sessions.SessionEvent): void {
         switch (event.kind) {
             case "rejected":
-                this.#notices.rejected(event.pending, event.problem);
+                if (!event.cancelled) {
+                    this.#notices.rejected(event.pending, event.problem);
+                }
                 this.#forgetRefused(event.pending);
                 break;
             case "skipped":

@@ -95,7 +95,13 @@ export type SessionMessage =
 /* What else a message meant. `resync`: the state does not fit the server's; ask for the document
  * by connecting anew without a revision. */
 export type SessionEvent =
-    | { readonly kind: "rejected"; readonly pending: PendingEdit | null; readonly problem: Problem }
+    /* `cancelled`: the user has given it up already. */
+    | {
+          readonly kind: "rejected";
+          readonly pending: PendingEdit | null;
+          readonly problem: Problem;
+          readonly cancelled: boolean;
+      }
     | { readonly kind: "skipped"; readonly ops: readonly Operation[] }
     /* `ops`: what an undo or redo did. */
     | {
@@ -464,6 +470,9 @@ function rejected(
         ...(line === undefined ? {} : { line }),
         ...(column === undefined ? {} : { column }),
     };
+    const cancelled = session.pending.some(
+        ({ kind, group }) => kind === "undo" && group !== "" && group === pending?.group,
+    );
     let next = dropIdle(without(session, message.edit));
     if (message.skipped) {
         return { session: rebase(stepGone(next, pending)), events: skipped(message.skipped) };
@@ -473,7 +482,7 @@ function rejected(
     }
     return {
         session: rebase(next),
-        events: [{ kind: "rejected", pending, problem }],
+        events: [{ kind: "rejected", pending, problem, cancelled }],
     };
 }
 
