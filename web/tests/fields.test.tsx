@@ -49,15 +49,17 @@ function field(label: string): HTMLInputElement {
     return found;
 }
 
-/* React listens to the browser's own setter of values. */
-function type(label: string, text: string): void {
+/* One text after the other. React listens to the browser's own setter of values. */
+function type(label: string, ...texts: readonly string[]): void {
     const input = field(label);
     const put = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value")?.set;
     act(() => input.focus());
-    act(() => {
-        put?.call(input, text);
-        input.dispatchEvent(new Event("input", { bubbles: true }));
-    });
+    for (const text of texts) {
+        act(() => {
+            put?.call(input, text);
+            input.dispatchEvent(new Event("input", { bubbles: true }));
+        });
+    }
     act(() => input.blur());
 }
 
@@ -219,6 +221,17 @@ test("typing and stepping in one of two surfaces changes in the other what was t
         { ...A, y: "t + 1", s: [0, 1.1] },
         { ...B, y: "t + 1", s: [5, 9.1] },
     ]);
+});
+
+test("what differs stays where a text is typed and taken away again", async () => {
+    const now = await form("parametric", "surface", [{ surface: A }, { surface: B }]);
+    for (const label of ["surface x", "s from"]) {
+        type(label, "1", "");
+        expect(field(label).value).toBe("");
+        expect(field(label).placeholder).toBe("mixed");
+    }
+    expect([now("n0"), now("n1")]).toEqual([A, B]);
+    expect(document.querySelector(".form-error")).toBeNull();
 });
 
 test("points of outlines that differ are not changed together", async () => {

@@ -172,41 +172,122 @@ test("code follows what others write and what is undone", async () => {
 /* --- a field --- */
 
 interface FieldProps {
-    onCommit: (text: string) => void;
-    onRefuse: (reason: string | null) => void;
+    onCommit?: (text: string) => void;
+    onCancel?: () => void;
+    onRefuse?: (reason: string | null) => void;
+    text?: string;
+    mixed?: boolean;
 }
 
-function Field({ onCommit, onRefuse }: FieldProps) {
+const none = (): void => undefined;
+
+function Field({
+    onCommit = none,
+    onCancel = none,
+    onRefuse = none,
+    text = "old",
+    mixed,
+}: FieldProps) {
     const { shown, listeners } = useTypedText({
-        text: "old",
-        onInput: () => undefined,
-        onCommit,
-        onCancel: () => undefined,
-        whyNot: (text) => (text.length > 3 ? "long" : null),
-        onRefuse,
+        ...{ place: CODE, text, mixed, onInput: none, onCommit, onCancel, onRefuse },
+        whyNot: (typed) => (typed.length > 4 ? "long" : typed === "" ? "empty" : null),
     });
     return <input value={shown} {...listeners} />;
+}
+
+/* A field in an editor, with what a hand does in it. */
+async function openField(editor: Editor, props: FieldProps) {
+    const draw = (more: FieldProps = {}) =>
+        show(
+            <EditorContext value={editor}>
+                <Field {...props} {...more} />
+            </EditorContext>,
+        );
+    await draw();
+    const input = element.querySelector("input") as HTMLInputElement;
+    const setValue = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value")?.set;
+    return {
+        draw,
+        text: () => input.value,
+        key: (name: string) =>
+            act(async () => {
+                input.dispatchEvent(new KeyboardEvent("keydown", { key: name, bubbles: true }));
+            }),
+        type: (text: string) =>
+            act(async () => {
+                setValue?.call(input, text);
+                input.dispatchEvent(new Event("input", { bubbles: true }));
+            }),
+    };
 }
 
 test("a text that a field cannot take stays until Escape", async () => {
     const onCommit = vi.fn();
     const onRefuse = vi.fn();
-    await show(<Field onCommit={onCommit} onRefuse={onRefuse} />);
-    const input = element.querySelector("input") as HTMLInputElement;
-    const setValue = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value")?.set;
-    const key = (name: string) =>
-        act(async () => {
-            input.dispatchEvent(new KeyboardEvent("keydown", { key: name, bubbles: true }));
-        });
-    await act(async () => {
-        setValue?.call(input, "long");
-        input.dispatchEvent(new Event("input", { bubbles: true }));
-    });
+    const { text, key, type } = await openField(setUp().editor, { onCommit, onRefuse });
+    await type("tools");
     await key("Enter");
     expect(onCommit).not.toHaveBeenCalled();
     expect(onRefuse).toHaveBeenLastCalledWith("long");
-    expect(input.value).toBe("long");
+    expect(text()).toBe("tools");
     await key("Escape");
     expect(onRefuse).toHaveBeenLastCalledWith(null);
-    expect(input.value).toBe("old");
+    expect(text()).toBe("old");
+});
+
+/* Takes a text, which the server refuses a moment later. */
+async function refuseText(
+    { stores }: Editor,
+    { type, key, draw }: Awaited<ReturnType<typeof openField>>,
+) {
+    stores.document.setState({ saved: false });
+    await type("bad");
+    await key("Enter");
+    await draw({ text: "bad" });
+    const problem = { code: "syntax", place: CODE, message: "no" };
+    await act(async () => {
+        stores.document.setState({ problems: new Map([[CODE, problem]]) });
+    });
+    await draw({ text: "old" });
+    await act(async () => stores.document.setState({ saved: true }));
+}
+
+test("a text that the server refuses comes back, and goes with Escape, as the reason does", async () => {
+    const { editor, stores } = setUp();
+    const onCommit = vi.fn();
+    const field = await openField(editor, { onCommit });
+    await refuseText(editor, field);
+    expect(field.text()).toBe("bad");
+    await field.key("Enter");
+    expect(onCommit).toHaveBeenCalledTimes(1);
+    await field.key("Escape");
+    expect(field.text()).toBe("old");
+    expect(stores.document.getState().problems.size).toBe(0);
+});
+
+test("a text that the server refused stays while its field is not shown", async () => {
+    const { editor } = setUp();
+    await refuseText(editor, await openField(editor, {}));
+    await show(null);
+    const { text, draw } = await openField(editor, {});
+    expect(text()).toBe("bad");
+    await draw({ text: "by others" });
+    expect(text()).toBe("by others");
+});
+
+test("a field of values that differ changes nothing when it is emptied again", async () => {
+    const onCommit = vi.fn();
+    const onCancel = vi.fn();
+    const onRefuse = vi.fn();
+    const all = { onCommit, onCancel, onRefuse, mixed: true };
+    const { text, key, type } = await openField(setUp().editor, all);
+    expect(text()).toBe("");
+    await type("a");
+    await type("");
+    await key("Enter");
+    expect([onCommit.mock.calls.length, onCancel.mock.calls.length]).toEqual([0, 1]);
+    expect(onRefuse).toHaveBeenLastCalledWith(null);
+    await type("b");
+    await key("Enter");
+    expect(onCommit).toHaveBeenCalledWith("b");
 });

@@ -7,12 +7,13 @@ import type { Gesture } from "../../link/link.ts";
 import { declaredBy, findResource, nodeLabel, paramAt } from "../../model/document.ts";
 import type { Problem } from "../../model/operation.ts";
 import { nodeOfPlace, resourceOfPlace } from "../../model/places.ts";
-import { isGivenUp, isStanding, TOO_SLOW } from "../../model/problems.ts";
+import { isGivenUp, TOO_SLOW } from "../../model/problems.ts";
 import type { Param } from "../../model/schema.ts";
 import { NEW_NODE_CODE } from "../../model/templates.ts";
 import { checkText } from "../../model/values.ts";
 import type { Editor } from "../editor.ts";
 import { showPlace } from "../insertions.ts";
+import { keptOf, useRefusal } from "../kept.ts";
 import { useDocument, useEditor } from "../state.ts";
 import { t } from "../texts.ts";
 import { Button, IconButton } from "../widgets/Button.tsx";
@@ -229,48 +230,6 @@ function whyNot({ stores }: Editor, place: string, text: string): Problem | null
     return message ? { code: "limit", place, message } : null;
 }
 
-/* What was sent last and is not settled yet, and why it was not taken where the server said so. */
-function useRefusal(place: string, text: string) {
-    const sent = useRef<string | null>(null);
-    const saved = useDocument((state) => state.saved);
-    const problem = useDocument(({ problems }) => problems.get(place) ?? null);
-    const isGone = sent.current !== null && sent.current !== text;
-    const refusal = isGone && problem !== null && !isStanding(problem) ? problem : null;
-    useEffect(() => {
-        if (saved) {
-            sent.current = null;
-        }
-    }, [saved]);
-    return { sent, refusal };
-}
-
-/* A text that was not taken, or not settled yet, stays while the panel is closed. */
-interface Kept {
-    readonly text: string;
-    /* Null: it was on its way. */
-    readonly problem: Problem | null;
-}
-const keptTexts = new WeakMap<Editor, Map<string, Kept>>();
-
-/* What an editor keeps, by scene and place. */
-function keptOf(editor: Editor, place: string) {
-    const texts = keptTexts.get(editor) ?? new Map<string, Kept>();
-    keptTexts.set(editor, texts);
-    const { stores } = editor;
-    const key = `${stores.document.getState().scene} ${place}`;
-    return {
-        put: (kept: Kept): void => void texts.set(key, kept),
-        /* What was refused, with the reason; it is kept no longer. */
-        take: (): { text: string; problem: Problem } | null => {
-            const kept = texts.get(key);
-            texts.delete(key);
-            const told = stores.document.getState().problems.get(place);
-            const problem = kept?.problem ?? (told && !isStanding(told) ? told : null);
-            return kept && problem ? { text: kept.text, problem } : null;
-        },
-    };
-}
-
 /* The editor, its text kept equal to the document's; `waiting`: something was not sent yet. A text
  * that is not taken stays until it is mended, with the reason in `refused`. */
 function useCode(place: string, text: string) {
@@ -338,8 +297,8 @@ function useCode(place: string, text: string) {
     useEffect(() => {
         if (refusal !== null) {
             sent.current = null;
-            reason.current = refusal;
-            setRefused(refusal);
+            reason.current = refusal.problem;
+            setRefused(refusal.problem);
         } else if (code !== null && !waiting && refused === null && code.text() !== text) {
             code.setText(text);
         }

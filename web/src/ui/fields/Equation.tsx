@@ -22,7 +22,9 @@ export function EquationField(props: Props) {
     const { onInput, onCommit, onCancel, onRefuse } = props;
     const schema = useDocument((state) => state.schema);
     const { shown, isTyped, listeners } = useTypedText({
-        text: mixed ? "" : value,
+        place,
+        text: value,
+        mixed: Boolean(mixed),
         lines: true,
         onInput,
         onCommit,

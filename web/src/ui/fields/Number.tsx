@@ -76,6 +76,10 @@ export const NumberField = memo(function NumberField(props: Props) {
         if (draft === null) {
             return;
         }
+        if (mixed && draft === "") {
+            cancel();
+            return;
+        }
         const parsed = display.parse(draft, value);
         if (parsed === null && props.onPasteText?.(draft)) {
             cancel();

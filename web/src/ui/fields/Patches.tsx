@@ -74,7 +74,7 @@ export function PatchesField(props: Props) {
                     label={surfaceText("part", { label, part })}
                     part={part}
                     place={`${place}/${part}`}
-                    text={isMixed(part) ? "" : surface.texts[part]}
+                    text={surface.texts[part]}
                     mixed={isMixed(part)}
                     onInput={put(onInput, part)}
                     onCommit={put(onCommit, part)}
@@ -118,7 +118,7 @@ interface PartFieldProps {
 }
 
 function PartField({ label, part, place, mixed, ...typed }: PartFieldProps) {
-    const { shown, listeners } = useTypedText(typed);
+    const { shown, listeners } = useTypedText({ place, mixed, ...typed });
     const problem = useDocument(({ problems }) => problems.get(place) ?? null);
     return (
         <div className="parametric-part">

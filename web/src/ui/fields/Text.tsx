@@ -23,7 +23,7 @@ export function TextField({
     const [draft, setDraft] = useState<string | null>(null);
     const cut = useNameCut();
     const commit = (): void => {
-        if (draft !== null && (draft !== value || mixed)) {
+        if (draft !== null && (mixed ? draft !== "" : draft !== value)) {
             onCommit(draft);
         }
         setDraft(null);
