@@ -151,6 +151,7 @@ test('what goes around others, and things of the library, land too', async () =>
     await landing().getByText('Goes around wall.').waitFor();
     await page.mouse.up();
     await when((d) => d.root.children[0].type === 'twist' && d.root.children[0].children[0].id === 'wall', 'a twist around it');
+    await settled(page);
     await page.keyboard.press('Control+z');
     await when((d) => d.root.children[0].id === 'wall', 'the wall again');
     await settled(page);
