@@ -473,7 +473,8 @@ export function attachPointer(element: HTMLElement, actions: PointerActions): ()
     window.addEventListener(
         "blur",
         () => {
-            machine.setSpace(false) /* let go where nobody is told */;
+            /* It may be let go where nobody is told. */
+            machine.setSpace(false);
             machine.end();
         },
         options,
