@@ -140,6 +140,32 @@ describe('the second view of the one tree', () => {
         await page.locator('[data-card="pole"]:focus').waitFor();
     });
 
+    test('Tab reaches the active card, or the result, also where it is out of sight', async () => {
+        await open();
+        const head = page.locator('.graph-head');
+        const push = async () => {
+            const from = await nowhere();
+            await page.mouse.move(from.x, from.y);
+            await page.mouse.down();
+            await page.mouse.move(from.x + 1000, from.y - 100, { steps: 4 });
+            await page.mouse.up();
+        };
+        for (const node of ['root', 'ball']) {
+            if (node !== 'root') {
+                await row(page, node).click();
+            }
+            await until(async () => {
+                await push();
+                return (await card(node).count()) === 0;
+            }, 'no card in sight');
+            await head.getByRole('button', { name: 'Close' }).focus();
+            await page.keyboard.press('Tab');
+            await page.locator(`[data-card="${node}"]:focus`).waitFor();
+            const [inner, outer] = [await card(node).boundingBox(), await page.locator('.graph-flow').boundingBox()];
+            assert.ok(inner.x >= outer.x && inner.x + inner.width <= outer.x + outer.width, 'in sight');
+        }
+    });
+
     test('what is selected elsewhere is unfolded and comes in sight', async () => {
         const many = Array.from({ length: 40 }, (_, i) => ({ id: `s${i}`, type: 'sphere' }));
         await open({ document: { format: 'fieldcast/1', root: { id: 'root', type: 'union', children: many } } });

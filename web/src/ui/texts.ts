@@ -108,6 +108,7 @@ const texts = {
         "Arrow keys go from card to card: left to the inputs, right to the result. Space folds a card, Shift with F10 opens its menu.",
     "graph.card": "{name}, {type}, input {number} of {parent}",
     "graph.result": "{name}, {type}, result",
+    "graph.back": "Show the active card",
     "graph.fold": "Fold {name}",
     "graph.unfold": "Unfold {name}: {count} nodes",
     "graph.unfold.one": "Unfold {name}: 1 node",

@@ -19,7 +19,7 @@ import { t } from "../texts.ts";
 import { Glyph } from "../widgets/Glyph.tsx";
 import { Thumbnail } from "../widgets/Thumbnail.tsx";
 import { useShared } from "./context.ts";
-import { useFar } from "./sight.ts";
+import { useFar, useStop } from "./sight.ts";
 
 export type CardNode = Node<{ card: Card }, "card">;
 
@@ -146,25 +146,30 @@ function useLabel({ id }: Card, name: string, type: string): string {
     });
 }
 
-/* One card takes the focus: the active one, the result where none is. */
 function useTabIndex(id: string): 0 | -1 {
     const { graph } = useShared();
-    const active = useView((view) => view.selection.at(-1) ?? null);
-    return (active === null ? graph.root === id : active === id) ? 0 : -1;
+    return useStop(graph) === id ? 0 : -1;
 }
 
 /* The focus goes along with the selection, unless it is somewhere else. A card that goes, as it is
  * deleted or out of sight, leaves it to the panel, for the next one to take. */
 function useFocus(element: { readonly current: HTMLElement | null }, id: string): void {
     const active = useView((view) => view.selection.at(-1) === id);
+    const { next } = useShared();
     useLayoutEffect(() => {
         const own = element.current;
+        if (next.current === id) {
+            next.current = null;
+            if (document.activeElement?.matches(".graph-panel")) {
+                own?.focus({ preventScroll: true });
+            }
+        }
         return () => {
             if (own?.contains(document.activeElement)) {
                 own.closest<HTMLElement>(".graph-panel")?.focus({ preventScroll: true });
             }
         };
-    }, [element]);
+    }, [element, id, next]);
     useEffect(() => {
         if (active && document.activeElement?.matches("[data-card], .graph-panel")) {
             element.current?.focus({ preventScroll: true });

@@ -13,9 +13,9 @@ import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { IconButton } from "../widgets/Button.tsx";
 import { type CardNode, GraphCard } from "./Card.tsx";
-import { GraphContext } from "./context.ts";
+import { GraphContext, useShared } from "./context.ts";
 import { Reach } from "./Reach.tsx";
-import { FARTHEST, glide, NEAREST, useFraming, useZoom } from "./sight.ts";
+import { FARTHEST, glide, NEAREST, useFraming, useStop, useWayBack, useZoom } from "./sight.ts";
 import { Wires } from "./Wires.tsx";
 import "@xyflow/react/dist/base.css";
 import "./graph.css";
@@ -130,12 +130,14 @@ const Flow = memo(function Flow({ graph }: { graph: Graph }) {
     const nodes = useNodes(graph);
     const frame = useFraming(graph);
     const trackpad = useView(({ preferences }) => preferences.pointing === "trackpad");
-    const shared = useMemo(() => ({ graph, openMenu: setMenu }), [graph]);
+    const next = useRef<string | null>(null);
+    const shared = useMemo(() => ({ graph, openMenu: setMenu, next }), [graph]);
     return (
         <GraphContext value={shared}>
             <p className="unseen" id="graph-help">
                 {t("graph.help")}
             </p>
+            <WayBack />
             <Reach>
                 <ReactFlow<CardNode>
                     nodes={nodes}
@@ -165,3 +167,28 @@ const Flow = memo(function Flow({ graph }: { graph: Graph }) {
         </GraphContext>
     );
 });
+
+/* Stands for the card that Tab reaches while that is out of sight. */
+function WayBack() {
+    const { graph, next } = useShared();
+    const stop = useStop(graph);
+    const bring = useWayBack(graph);
+    return (
+        bring && (
+            <button
+                type="button"
+                className="unseen"
+                tabIndex={0}
+                onFocus={({ currentTarget }) => {
+                    next.current = stop;
+                    currentTarget
+                        .closest<HTMLElement>(".graph-panel")
+                        ?.focus({ preventScroll: true });
+                    bring();
+                }}
+            >
+                {t("graph.back")}
+            </button>
+        )
+    );
+}

@@ -7,6 +7,8 @@ import type { MenuPlace } from "../widgets/Menu.tsx";
 interface Shared {
     readonly graph: Graph;
     readonly openMenu: (at: MenuPlace) => void;
+    /* The card that takes the focus when it is drawn, unless that has gone on. */
+    readonly next: { current: string | null };
 }
 
 export const GraphContext = createContext<Shared | null>(null);

@@ -2,7 +2,7 @@
 /* What of the graph is in sight: at first all of it if that can be read, else its result; then
  * whatever is selected elsewhere. */
 import { type Rect, useReactFlow, useStore, type Viewport } from "@xyflow/react";
-import { useEffect, useRef } from "react";
+import { useCallback, useEffect, useRef } from "react";
 import { pathTo } from "../../model/document.ts";
 import { CARD, type Graph } from "../../model/graph.ts";
 import { unfoldTo } from "../../model/view.ts";
@@ -84,10 +84,52 @@ function rectOf(graph: Graph, id: string | null): Rect | null {
         : null;
 }
 
-/* Brings the card of a node that was selected elsewhere in sight, by the least way. */
+/* The card that Tab reaches: the active one, the result where none is. */
+export const useStop = (graph: Graph): string =>
+    useView((view) => view.selection.at(-1) ?? graph.root);
+
+/* Brings a card in sight, by the least way. */
+function useReveal(graph: Graph, width: number, height: number): (id: string) => void {
+    const flow = useReactFlow();
+    return useCallback(
+        (id) => {
+            const card = rectOf(graph, id);
+            const old = flow.getViewport();
+            const { dx, dy } = card ? wayTo(card, old, { width, height }) : { dx: 0, dy: 0 };
+            if (dx !== 0 || dy !== 0) {
+                const next = { ...old, x: old.x + dx, y: old.y + dy };
+                void flow.setViewport(next, { duration: glide() });
+            }
+        },
+        [graph, width, height, flow],
+    );
+}
+
+/* What brings the card that Tab reaches in sight; null: it is there. React Flow draws no other. */
+export function useWayBack(graph: Graph): (() => void) | null {
+    const stop = useStop(graph);
+    const width = useStore((state) => state.width);
+    const height = useStore((state) => state.height);
+    const reveal = useReveal(graph, width, height);
+    const away = useStore(({ transform: [x, y, zoom] }) => {
+        const card = rectOf(graph, stop);
+        const isIn = (start: number, size: number, room: number): boolean =>
+            start + size > 0 && start < room;
+        return (
+            card !== null &&
+            !(
+                isIn(card.x * zoom + x, card.width * zoom, width) &&
+                isIn(card.y * zoom + y, card.height * zoom, height)
+            )
+        );
+    });
+    return away ? () => reveal(stop) : null;
+}
+
+/* Brings the card of a node that was selected elsewhere in sight. */
 function useRevealed(graph: Graph, width: number, height: number): void {
     const { view, document: scene } = useEditor().stores;
-    const flow = useReactFlow();
+    const reveal = useReveal(graph, width, height);
     const active = useView((state) => state.selection.at(-1) ?? null);
     const shown = useRef<string | null>(null);
     useEffect(() => {
@@ -101,14 +143,8 @@ function useRevealed(graph: Graph, width: number, height: number): void {
             return;
         }
         shown.current = active;
-        const card = rectOf(graph, active);
-        const old = flow.getViewport();
-        const { dx, dy } = card ? wayTo(card, old, { width, height }) : { dx: 0, dy: 0 };
-        if (dx !== 0 || dy !== 0) {
-            const next = { ...old, x: old.x + dx, y: old.y + dy };
-            void flow.setViewport(next, { duration: glide() });
-        }
-    }, [active, graph, width, height, flow, view, scene]);
+        reveal(active);
+    }, [active, graph, width, reveal, view, scene]);
 }
 
 export const glide = (): number =>
