@@ -136,12 +136,19 @@ test('let go beside the picture nothing happens, and the palette is back', async
 
 test('what goes around others, and things of the library, land too', async () => {
     await open();
-    const clay = { shader: 'phong', properties: { diffuse: [0.8, 0.3, 0.2] } };
-    const entry = (kind, name, root) => ({
+    const entry = (kind, name, material, type, diffuse) => ({
         kind,
-        document: { format: 'fieldcast/1', name, materials: { clay }, root: { material: 'clay', ...root } },
+        document: {
+            format: 'fieldcast/1',
+            name,
+            materials: { [material]: { shader: 'phong', properties: { diffuse } } },
+            root: { type, material },
+        },
     });
-    const entries = [entry('model', 'Post', { type: 'capsule' }), entry('material', 'Red', { type: 'sphere' })];
+    const entries = [
+        entry('model', 'Post', 'clay', 'capsule', [0.8, 0.3, 0.2]),
+        entry('material', 'Red', 'red', 'sphere', [0.9, 0, 0]),
+    ];
     await ask(stage.daemon, 'POST', '/v1/library', { format: 'fieldcast-library/1', entries });
     const at = await spotOf([-1.2, 0.4]);
 
@@ -165,7 +172,9 @@ test('what goes around others, and things of the library, land too', async () =>
     close(post.transform.rotation, [Math.PI / 2, 0, 0]);
     await settled(page);
     await takeCard('Red', at);
-    await landing().getByText(/^For /).waitFor();
+    await landing().getByText('For Post.').waitFor();
     await page.mouse.up();
-    await when((d) => [d.root.children[0], d.root.children[1]].some(({ material }) => material === 'clay'), 'the material');
+    const red = await when((d) => d.root.children[1].material === 'red' && d, 'the material');
+    assert.equal(red.root.children[0].material, undefined);
+    assert.deepEqual(red.materials.red.properties.diffuse, [0.9, 0, 0]);
 });

@@ -10,6 +10,7 @@ import {
     nodeIn,
     picture,
     pictureChanged,
+    picturesIn,
     pixels,
     row,
     rows,
@@ -121,10 +122,10 @@ describe('what can be added', () => {
                 !offered.some(([name, text]) => name === type && text.includes(doc)),
         );
         assert.deepEqual(missing.map(({ type }) => type), []);
-        await page.waitForFunction(() => {
-            const image = document.querySelector('[role=option] img');
-            return image.complete && image.naturalWidth > 0;
-        });
+        const { all, without, seen, shown } = await picturesIn(page, '[role=option][data-type]');
+        assert.ok(all >= nodes.length - 1, `${all} options`);
+        assert.deepEqual(without, []);
+        assert.ok(seen > 3 && shown === seen, `${shown} of ${seen} pictures in sight`);
         await page.keyboard.press('Escape');
     });
 

@@ -5,7 +5,7 @@ import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { EXAMPLES } from '../support/counts.mjs';
 import { ask, until } from '../support/daemon.mjs';
-import { readDownload, SCENE, settled, useStage } from './stage.mjs';
+import { picturesIn, readDownload, SCENE, settled, useStage } from './stage.mjs';
 
 const stage = useStage({ driver: 'null', coarse: true });
 let page;
@@ -82,10 +82,8 @@ test('every example has a card; those in sight get a picture', async () => {
     for (const { id, name } of examples) {
         assert.ok((await page.locator(`[data-example="${id}"]`).textContent()).includes(name));
     }
-    await page.waitForFunction(() => {
-        const image = document.querySelector('[data-example] img');
-        return image.complete && image.naturalWidth > 0;
-    });
+    const { seen, shown } = await picturesIn(page, '[data-example]');
+    assert.ok(seen > 3 && shown === seen, `${shown} of ${seen} pictures in sight`);
 });
 
 test('of many scenes the newest are shown; the search finds all of them', async () => {

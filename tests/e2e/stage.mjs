@@ -248,6 +248,34 @@ export const settled = (page) =>
 export const waitForSaved = (page) =>
     page.locator('[data-testid=saved][data-state=saved]').waitFor();
 
+/**
+ * What holds a picture, of the elements of a kind: how many there are, the texts of those without one, how many are in
+ * sight, and how many of these show one. Waits until nothing in sight is still on its way.
+ */
+export async function picturesIn(page, selector) {
+    const count = () =>
+        page.locator(selector).evaluateAll((elements) => {
+            const isSeen = (element) => {
+                const { left, top, width, height } = element.getBoundingClientRect();
+                const [x, y] = [left + width / 2, top + height / 2];
+                return x > 0 && y > 0 && element.contains(document.elementFromPoint(x, y));
+            };
+            const seen = elements.filter(isSeen);
+            const images = seen.map((one) => one.querySelector('img')).filter((image) => image !== null);
+            return {
+                all: elements.length,
+                without: elements.filter((one) => !one.querySelector('img')).map((one) => one.textContent),
+                seen: seen.length,
+                shown: images.filter((image) => image.complete && image.naturalWidth > 0).length,
+                coming: images.filter((image) => !image.complete).length + seen.filter((one) => one.querySelector('[data-waiting]')).length,
+            };
+        });
+    return until(async () => {
+        const now = await count();
+        return now.seen > 0 && now.coming === 0 && now;
+    }, 'pictures in sight');
+}
+
 /** Ids of the rows in sight, from top to bottom. */
 export async function rows(page) {
     const found = await page.locator('[data-node]').evaluateAll((list) =>
