@@ -21,8 +21,10 @@ const runner = path.join(path.dirname(new URL(import.meta.url).pathname), 'run.m
 const out = path.join(build, 'soak');
 fs.mkdirSync(out, { recursive: true });
 
+// Sessions of their own: the kernel may share the processors between sessions (autogroups), and
+// eight loops in one session are then felt like one.
 const loops = Array.from({ length: Number(loopCount) }, () =>
-    spawn('sh', ['-c', 'while :; do :; done'], { stdio: 'ignore' }),
+    spawn('sh', ['-c', 'while :; do :; done'], { stdio: 'ignore', detached: true }),
 );
 let round = null; // the runner's process
 const end = () => {
