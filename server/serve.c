@@ -11,6 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "drain_limit.h"
 #include "log.h"
 #include "protocol/memory.h"
 #include "renderer/slice.h"
@@ -24,7 +25,6 @@
 #include "server/rest/routes.h"
 
 enum {
-    DRAIN_SECONDS = 8,
     WS_DRAIN_MS = 3000,
     HTTP_DRAIN_MS = 400,
     SILENCE_MS = 5000,
@@ -198,36 +198,9 @@ static bool start(struct server *server, const struct serve_params *params, cons
 
 /* --- end --- */
 
-static void on_end(int signal)
-{
-    static const char text[] = "fieldcast: the drain took too long, ending now\n";
-
-    if (signal == SIGALRM && write(STDERR_FILENO, text, sizeof text - 1) < 0) {
-        _exit(2);
-    }
-    _exit(1);
-}
-
-/* Whatever hangs, the end comes; a second signal ends at once. */
-static void limit_drain(void)
-{
-    struct sigaction action = {.sa_handler = on_end};
-    sigset_t set;
-
-    sigaction(SIGALRM, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    sigaction(SIGINT, &action, NULL);
-    sigemptyset(&set);
-    sigaddset(&set, SIGALRM);
-    sigaddset(&set, SIGTERM);
-    sigaddset(&set, SIGINT);
-    alarm(DRAIN_SECONDS);
-    pthread_sigmask(SIG_UNBLOCK, &set, NULL);
-}
-
 static void drain(struct server *server)
 {
-    limit_drain();
+    drain_limit();
     acceptor_stop(server->acceptor);
     hub_drain(server->hub);
     ws_drain(server->ws, WS_DRAIN_MS);
@@ -249,11 +222,9 @@ static void block_signals(sigset_t *set)
     sigemptyset(set);
     sigaddset(set, SIGTERM);
     sigaddset(set, SIGINT);
-    sigaddset(set, SIGALRM);
     pthread_sigmask(SIG_BLOCK, set, NULL);
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN); /* a full quota is a failed commit */
-    sigdelset(set, SIGALRM);
 }
 
 /* posix_spawn puts sockets at WORKER_FD and WORKER_PULSE_FD; nothing of ours may be there. */

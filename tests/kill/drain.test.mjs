@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SIGTERM: no edit that was applied is lost, everybody is told, and the end comes soon.
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
 import net from 'node:net';
+import path from 'node:path';
 import { after, test } from 'node:test';
 import {
     ask,
@@ -17,6 +19,7 @@ import { encodeMessage, Live } from '../support/live.mjs';
 
 const data = makeDirectory();
 after(() => removeDirectory(data));
+const DRAIN_STILL_S = 8; // server/drain_limit.h
 const PICTURES = 16; // as many as one client may have in the queue
 const DOCUMENT = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
 
@@ -136,6 +139,30 @@ test('a second signal ends at once', async () => {
     assert.equal(status, 1, `${signal} ${daemon.errors}`);
     assert.doesNotMatch(daemon.errors, /took too long|ended/);
     stuck.socket.destroy();
+});
+
+/** A daemon with an edit whose commit makes it wait: for ever (0), or for so many seconds in which it computes. */
+async function drainsSlowly(seconds) {
+    const file = path.join(data, 'sync');
+    const daemon = await startDaemon({ data, ready: false, driver: ['null', 'sync'], environment: { SYNC_FILE: file } });
+    await ask(daemon, 'POST', `/v1/scenes?id=waits-${seconds}`, DOCUMENT);
+    const live = await Live.open(daemon, `waits-${seconds}`);
+    fs.writeFileSync(file, 'x'.repeat(seconds));
+    live.set('/name', 'waited');
+    await until(() => !fs.existsSync(file), 'the commit that waits');
+    daemon.child.kill('SIGTERM');
+    return { daemon, ...(await daemon.exited) };
+}
+
+test('a drain that hangs is ended, and one that goes on is not, however long it takes', async () => {
+    const hung = await drainsSlowly(0);
+    assert.equal(hung.status, 1);
+    assert.match(hung.daemon.errors, /the drain hangs, ending now/);
+    const slow = await drainsSlowly(DRAIN_STILL_S + 2);
+    assert.equal(slow.status, 0, slow.daemon.errors);
+    const again = await startDaemon({ data, ready: false, driver: 'null' });
+    assert.equal((await ask(again, 'GET', `/v1/scenes/waits-${DRAIN_STILL_S + 2}`)).name, 'waited');
+    await again.stop();
 });
 
 test('a data directory has one daemon', async () => {

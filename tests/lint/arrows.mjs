@@ -30,7 +30,7 @@ export const INCLUDES = {
         'protocol',
         ...['field', 'image', 'renderer.h', 'portrait.h', 'crash.h', 'patient.h', 'slice.h', 'vigil.h'].map((name) => `renderer/${name}`),
     ],
-    server: ['protocol', 'renderer/slice.h', ...WORKER],
+    server: ['protocol', 'renderer/slice.h', 'renderer/vigil.h', ...WORKER],
     'server/net': ['protocol', ...BASE],
     'server/store': ['protocol', ...BASE],
     'server/live': ['protocol', ...WORKER, ...BASE, 'server/net', 'server/store'],
