@@ -36,16 +36,32 @@ enum act {
     DRAW_SLOWLY,
     DRAW_HARDLY,
     DRAW_HARDLY_LATE,
+    DRAW_AT_LENGTH,
     SLEEP_LATER
 };
 
 static const struct {
     const char *number;
     enum act act;
-} acts[] = {{"31337.5", HANG},        {"31338.5", CRASH},           {"31339.5", EAT},
-            {"31340.5", CRASH_LATER}, {"31341.5", HANG_ONCE},       {"31342.5", HANG_TWICE},
-            {"31343.5", SLEEP},       {"31344.5", DRAW_SLOWLY},     {"31345.5", DRAW_HARDLY},
-            {"31346.5", SLEEP_LATER}, {"31347.5", DRAW_HARDLY_LATE}};
+} acts[] = {{"31337.5", HANG},
+            {"31338.5", CRASH},
+            {"31339.5", EAT},
+            {"31340.5", CRASH_LATER},
+            {"31341.5", HANG_ONCE},
+            {"31342.5", HANG_TWICE},
+            {"31343.5", SLEEP},
+            {"31344.5", DRAW_SLOWLY},
+            {"31345.5", DRAW_HARDLY},
+            {"31346.5", SLEEP_LATER},
+            {"31347.5", DRAW_HARDLY_LATE},
+            {"31348.5", DRAW_AT_LENGTH}};
+
+/* What 8 x 8 pixels take in each pass. */
+static const int group_times_ms[] = {[DRAW_SLOWLY] = 10,
+                                     [DRAW_HARDLY] = 250,
+                                     [DRAW_HARDLY_LATE] = 250,
+                                     [DRAW_AT_LENGTH] = 500,
+                                     [SLEEP_LATER] = 0};
 
 /* Pictures of environments, by their width. */
 static const struct {
@@ -56,8 +72,6 @@ static const struct {
 enum {
     OBJECTS = 4096,
     EAT_BYTES = 1 << 20,
-    GROUP_MS = 10,
-    HARD_GROUP_MS = 500,
     LATE_MS = 1000, /* of compiling */
     HANG_RATE = 10,
     NS = 1000000000
@@ -213,6 +227,7 @@ static void APIENTRY source(GLuint shader, GLsizei count, const GLchar *const *s
     case CRASH_LATER:
     case DRAW_SLOWLY:
     case DRAW_HARDLY:
+    case DRAW_AT_LENGTH:
     case SLEEP_LATER:
     case NOTHING:
         break;
@@ -240,12 +255,7 @@ static void APIENTRY use(GLuint program)
     if (is_later[program % OBJECTS] == SLEEP_LATER && elsewhere) {
         pause();
     }
-    group_ms = !elsewhere                                   ? 0
-               : is_later[program % OBJECTS] == DRAW_SLOWLY ? GROUP_MS
-               : is_later[program % OBJECTS] == DRAW_HARDLY ||
-                       is_later[program % OBJECTS] == DRAW_HARDLY_LATE
-                   ? HARD_GROUP_MS
-                   : 0;
+    group_ms = elsewhere ? group_times_ms[(int)is_later[program % OBJECTS]] : 0;
     real_use(program);
 }
 

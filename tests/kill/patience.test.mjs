@@ -32,8 +32,9 @@ const CRASH = ball('31338.5');
 const HANG_ONCE = ball('31341.5');
 const HANG_TWICE = ball('31342.5');
 const DRAW_SLOWLY = ball('31344.5'); // 10 ms for each 8 × 8 pixels in each pass
-const DRAW_HARDLY = ball('31345.5'); // 500 ms
+const DRAW_HARDLY = ball('31345.5'); // 250 ms
 const DRAW_HARDLY_LATE = ball('31347.5'); // compiled when the engine has drawn for a while
+const DRAW_AT_LENGTH = ball('31348.5'); // 500 ms
 
 const scene = (code) => ({
     format: 'fieldcast/1',
@@ -113,7 +114,7 @@ test('a tile that is long at work is no hung process', async (t) => {
 
 test('a scene whose tiles took too long for one process is drawn by the next in the smallest', async () => {
     const daemon = await start('--worker-busy', '200');
-    const live = await open(daemon, 'smaller', DRAW_SLOWLY, { width: 48, height: 32 });
+    const live = await open(daemon, 'smaller', DRAW_SLOWLY, { width: 96, height: 64, aov: 'normal' });
     await live.nextFrame((frame) => frame.lossless);
     assert.ok((await restarts(daemon)) >= 1);
     assert.deepEqual(errors(live), []);
@@ -256,10 +257,10 @@ test('who has nothing to do with it hears no word of a crash', async () => {
 });
 
 test('a scene whose smallest part takes too long is suspended with its measure', async () => {
-    const daemon = await start('--tile-time', '500');
+    const daemon = await start('--tile-time', '250');
     const live = await open(daemon, 'heavy', DRAW_HARDLY, SMALL);
     const notice = await live.next('notice', { code: 'scene_left_out' });
-    assert.ok(notice.measured > 500 && notice.limit === 500, `${notice.measured} of ${notice.limit}`);
+    assert.ok(notice.measured > 250 && notice.limit === 250, `${notice.measured} of ${notice.limit}`);
     assert.equal(notice.place, '/nodes/root');
     assert.equal(notice.reason, 'too_slow');
     const refused = await fetch(`${daemon.url}/v1/scenes/heavy/image.png?width=8&height=8`);
@@ -267,7 +268,7 @@ test('a scene whose smallest part takes too long is suspended with its measure',
     assert.equal(await restarts(daemon), 0);
     const late = await Live.open(daemon, 'heavy');
     const again = await late.next('notice', { code: 'scene_left_out' });
-    assert.deepEqual([again.limit, again.reason], [500, 'too_slow']);
+    assert.deepEqual([again.limit, again.reason], [250, 'too_slow']);
     await late.close();
     const spent = cpuSecondsOf(daemon.worker());
     await sleep(1000);
@@ -280,10 +281,10 @@ test('a scene whose smallest part takes too long is suspended with its measure',
 });
 
 test('a scene whose first pictures were drawn while it was compiled is suspended by the last', async () => {
-    const daemon = await start('--tile-time', '500');
+    const daemon = await start('--tile-time', '250');
     const live = await open(daemon, 'late', DRAW_HARDLY_LATE, SMALL);
     const notice = await live.next('notice', { code: 'scene_left_out' });
-    assert.deepEqual([notice.limit, notice.reason], [500, 'too_slow']);
+    assert.deepEqual([notice.limit, notice.reason], [250, 'too_slow']);
     await live.close();
 });
 
@@ -306,7 +307,7 @@ test('a scene that is too heavy for the engine is suspended, and others are draw
 
 test('a scene that keeps two processes at work for too long is suspended too', async () => {
     const daemon = await start('--worker-busy', '400');
-    const live = await open(daemon, 'busy', DRAW_HARDLY, SMALL);
+    const live = await open(daemon, 'busy', DRAW_AT_LENGTH, SMALL);
     const notice = await live.next('notice', { code: 'scene_left_out' });
     assert.ok(notice.measured > 400 && notice.limit === 400, `${notice.measured} of ${notice.limit}`);
     // A start may take more than so low a bound too.
