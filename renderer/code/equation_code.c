@@ -166,25 +166,21 @@ static void write_axis(const struct equation_writer *w, size_t index)
     }
 }
 
-/* The distance d within the clip, by boxes around p: `at` is |f| and half of the side of the next.
- * A sheet's last box is as small as its grain. */
+/* The distance d within the clip, by boxes around p, see jet_solid in glsl/jets.glsl. A sheet's
+ * last box is as small as its grain where nothing is free yet. */
 static void write_boxes(const struct equation_writer *w, uint16_t root, bool sheet)
 {
-    fputs(sheet ? "float d = -0.5 * thickness;\nat.y = max(at.y, thickness);\n"
-                : "float d = 0.0;\n",
-          w->out);
+    fputs(sheet ? "at.y = max(at.y, thickness);\nat.w = -0.5 * thickness;\n" : "", w->out);
     fprintf(w->out, "for (int i = 0; i < %d; i++) {\nvec2 sides = vec2(-at.y, at.y);\n", TRIES);
     write_nodes(w, true, equation_write_jet);
-    fprintf(w->out,
-            "vec2 told = jet_%s(j%d, at%s);\n"
-            "d = max(d, told.x);\n"
-            "if (told.y == 0.0) {\nbreak;\n}\n",
-            sheet ? "sheet" : "solid", root, sheet ? ", thickness" : "");
+    fprintf(w->out, "at = jet_%s(j%d, at%s);\n", sheet ? "sheet" : "solid", root,
+            sheet ? ", thickness" : "");
     if (sheet) {
-        fprintf(w->out, "at.y = i == %d ? thickness / 16.0 : told.y;\n}\n", TRIES - 2);
-    } else {
-        fputs("at.y = told.y;\n}\nd = g.w < 0.0 ? -d : d;\n", w->out);
+        fprintf(w->out, "at.y = i == %d && at.w < 0.0 ? min(at.y, thickness / 16.0) : at.y;\n",
+                TRIES - 2);
     }
+    fprintf(w->out, "if (at.y == 0.0) {\nbreak;\n}\n}\nfloat d = %s;\n",
+            sheet ? "at.w" : "g.w < 0.0 ? -at.w : at.w");
 }
 
 /* The same, even. */
@@ -242,7 +238,7 @@ static void write_sdf(const struct equation_writer *w, uint16_t root, struct equ
     fprintf(w->out,
             "vec3 p = near.xyz;\n"
             "vec4 g = function_at(p);\n"
-            "vec2 at = jet_begin(g, %g * extent);\n",
+            "vec4 at = jet_begin(g, %g * extent);\n",
             EQUATION_REACH);
     write_estimate(w, form.sheet);
     write_nodes(w, false, equation_write_scalar);

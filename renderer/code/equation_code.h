@@ -8,7 +8,8 @@
  * point of the surface is nearer than the lesser of |f| / M and the step (the mean value theorem;
  * Mitchell, Robust ray intersection with interval arithmetic, Graphics Interface 1990, for the
  * intervals). Where the step is short M is hardly above |g|, so rays converge as fast as Newton's
- * method.
+ * method. Beside the end of a domain M may have no bound: what tells there is a box, as large as
+ * can be found, that has no zero among the values of f (glsl/jets.glsl).
  *
  * The equation is asked within its clip alone, at the point of the clip that is nearest. What is in
  * the clip lies beyond that point, at a right angle or more, so outside both ways together are no

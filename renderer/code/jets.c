@@ -254,6 +254,8 @@ void jet_begin(double *out, const double *const in[], int n)
     UNUSED(n);
     out[0] = value;
     out[1] = fmin(value / fmax(slope, 1e-18), in[1][0]);
+    out[2] = in[1][0];
+    out[3] = 0;
 }
 
 void jet_room(double *out, const double *const in[], int n)
@@ -302,35 +304,52 @@ static struct told told_by(const double *jet)
     return (struct told){most, clear, !clear && most > 1e17};
 }
 
-static double smaller(double reach, double free, bool jumps)
+static double smaller(double reach, double known, bool jumps)
 {
-    return jumps ? 0.2 * reach : sqrt(fmax(free, 0.001 * reach) * reach);
+    return sqrt(fmax(known, (jumps ? 0.04 : 0.001) * reach) * reach);
+}
+
+static double larger(double reach, double limit)
+{
+    return 2 * reach < limit ? sqrt(reach * limit) : 0;
 }
 
 void jet_solid(double *out, const double *const in[], int n)
 {
-    const double value = in[1][0], reach = in[1][1];
+    const double value = in[1][0], reach = in[1][1], limit = in[1][2];
     const struct told told = told_by(in[0]);
     const double free = told.clear ? reach : fmin(value / told.most, reach);
+    const double known = fmax(in[1][3], told.jumps ? 0.0003 * reach : free);
 
     UNUSED(n);
-    out[0] = told.jumps ? 0.0003 * reach : free;
-    out[1] = free > 0.4 * reach ? 0 : smaller(reach, free, told.jumps);
+    out[0] = value;
+    out[1] = told.clear            ? larger(reach, limit)
+             : known > 0.4 * reach ? 0
+                                   : smaller(reach, known, told.jumps);
+    out[2] = told.clear ? limit : reach;
+    out[3] = known;
 }
 
 void jet_sheet(double *out, const double *const in[], int n)
 {
-    const double value = in[1][0], reach = in[1][1], thickness = in[2][0], grain = thickness / 16;
+    const double value = in[1][0], reach = in[1][1], limit = in[1][2], half = 0.5 * in[2][0];
+    const double grain = half / 8, around = half + grain;
     const struct told told = told_by(in[0]);
-    const bool last = reach <= grain;
-    const double free = fmin(value / told.most - 0.5 * thickness, last ? grain : reach - grain);
-    const bool ends = free < 2 * grain && reach < 2 * thickness;
+    const bool last = reach <= grain, steep = value < 0.002 * half * told.most;
+    const double slow = fmin(value / told.most - half, last ? grain : reach - grain);
+    const double known = fmax(in[1][3], told.clear ? fmax(slow, reach - half) : slow);
+    const bool ends = known < 2 * grain && reach < 4 * half;
 
     UNUSED(n);
-    out[0] = last && told.clear && told.most > 1e17 ? grain : free;
-    out[1] = last || free > 0.4 * reach ? 0
-             : ends                     ? grain
-                                        : fmax(smaller(reach, free, told.jumps), grain);
+    out[0] = value;
+    out[1] = last                                   ? 0
+             : told.clear && known >= 0             ? larger(reach, limit)
+             : known > 0.4 * reach                  ? 0
+             : steep && reach > around && known < 0 ? around
+             : ends                                 ? grain
+                    : fmax(smaller(reach, known + half, told.jumps), grain);
+    out[2] = told.clear ? limit : reach;
+    out[3] = known;
 }
 
 /* Columns of a search. */

@@ -37,7 +37,8 @@ void jet_near_box(double *out, const double *const in[], int n);
 void jet_near_ball(double *out, const double *const in[], int n);
 /* A distance: the same, and the distance at that point. */
 void jet_clipped(double *out, const double *const in[], int n);
-/* |f| and half of the side of the first box: dual, the most that half may be. */
+/* What boxes begin with: |f|, half of the side of the next box, half of that of the least box that
+ * may have a zero, the way that is free. Dual, the most that a half may be. */
 void jet_begin(double *out, const double *const in[], int n);
 /* How much an estimate of the distance may be: as much as said where one is asked for
  * (glsl/field_mask.glsl), else 0. In C none is. */
@@ -47,8 +48,8 @@ void jet_ahead(double *out, const double *const in[], int n);
 /* About how far the surface is along it, if what the dual, and the dual at that place, tell of the
  * function is a parabola: right at simple and double roots. Dual, those numbers, dual ahead. */
 void jet_estimated(double *out, const double *const in[], int n);
-/* The way that is free, and half of the side of the next box, 0: none. Of the jet in a box, |f| and
- * half of the box's side, the thickness. */
+/* The same after a box, 0 for the next one: none. The jet in it, what was known before, the
+ * thickness. */
 void jet_solid(double *out, const double *const in[], int n);
 void jet_sheet(double *out, const double *const in[], int n);
 

@@ -140,10 +140,10 @@ float jet_clipped(vec4 near, float d)
     return near.w > 0.0 ? length(vec2(near.w, max(d, 0.0))) : max(d, near.w);
 }
 
-/* Of a dual: |f|, and Newton's step, or `reach` where that is longer. */
-vec2 jet_begin(vec4 a, float reach)
+/* What boxes begin with, see jet_solid: Newton's step, or `reach` where that is longer. */
+vec4 jet_begin(vec4 a, float reach)
 {
-    return vec2(abs(a.w), min(abs(a.w) / max(length(a.xyz), 1e-18), reach));
+    return vec4(abs(a.w), min(abs(a.w) / max(length(a.xyz), 1e-18), reach), reach, 0.0);
 }
 
 /* How much an estimate may be; 0: none is asked for. */
@@ -152,13 +152,13 @@ float jet_room(float room)
     return field_estimates ? room : 0.0;
 }
 
-vec3 jet_ahead(vec3 p, vec4 a, vec2 at)
+vec3 jet_ahead(vec3 p, vec4 a, vec4 at)
 {
     return p - a.xyz * ((a.w < 0.0 ? -at.y : at.y) / max(length(a.xyz), 1e-18));
 }
 
 /* How far a parabola through these has its root. */
-float jet_estimated(vec4 a, vec2 at, vec4 ahead)
+float jet_estimated(vec4 a, vec4 at, vec4 ahead)
 {
     float slope = length(a.xyz), reach = max(at.y, 1e-9);
     float bend = ((a.w < 0.0 ? -ahead.w : ahead.w) - at.x + slope * reach) / reach;
@@ -171,34 +171,54 @@ float jet_steepest(mat3 a)
     return max(length(max(abs(a[0]), abs(a[1]))), 1e-18);
 }
 
-/* Of the jet in the box of the half side at.y around a point with |f| = at.x: how far it is to a
- * zero at least, and the half side of a box that may tell more; 0: none. Nothing is in a box
- * without a zero among its values. Where the slope in a box tells less than that in a smaller one
- * would, the box shrinks. Close to a jump or a pole in every box, a ray goes on by a little: it
- * ends at the jump where the sign changes. */
-vec2 jet_solid(mat3 a, vec2 at)
+/* Half sides of the next box, between one without a zero and one that may have one. */
+float jet_smaller(float reach, float known, bool jumps)
+{
+    return sqrt(max(known, (jumps ? 0.04 : 0.001) * reach) * reach);
+}
+
+float jet_larger(float reach, float limit)
+{
+    return 2.0 * reach < limit ? sqrt(reach * limit) : 0.0;
+}
+
+/* What boxes around a point tell of the way to a zero: (|f| at the point, half side of the next
+ * box, of the least box that may have a zero, the way that is free), from that and the jet in this
+ * box; 0: no other box tells more. Nothing is in a box without a zero among its values. Such a box
+ * grows: Newton's step is short where the slope has no bound, as beside the end of a domain. Where
+ * the slope in a box tells less than that in a smaller one would, the box shrinks. Close to a jump
+ * or a pole in every box, a ray goes on by a little: it ends at the jump where the sign changes. */
+vec4 jet_solid(mat3 a, vec4 at)
 {
     float steepest = jet_steepest(a), reach = at.y;
     bool apart = a[2].x * a[2].y > 0.0, jumps = !apart && steepest > 1e17;
     float free = apart ? reach : min(at.x / steepest, reach);
-    float less = jumps ? 0.2 * reach : sqrt(max(free, 0.001 * reach) * reach);
-    return vec2(jumps ? 0.0003 * reach : free, free > 0.4 * reach ? 0.0 : less);
+    float known = max(at.w, jumps ? 0.0003 * reach : free);
+    float less = known > 0.4 * reach ? 0.0 : jet_smaller(reach, known, jumps);
+    return apart ? vec4(at.x, jet_larger(reach, at.z), at.z, known)
+                 : vec4(at.x, less, reach, known);
 }
 
 /* The same to a sheet, which is where |f| is at most half of the thickness times the slope in a
  * small box (`grain`) around the point. Let M be the slope in a box that is larger by the grain
  * than a ball. Within the ball |f| falls by at most M a unit of way, and the slope in small boxes
  * is at most M: the sheet is at least |f| / M less half of its thickness away, or the radius of
- * the ball. */
-vec2 jet_sheet(mat3 a, vec2 at, float thickness)
+ * the ball. Where M has no bound, as at the end of a domain, all around would be a sheet of it: so
+ * a box about as thick as the sheet (`around`) has to have a zero among its values there. */
+vec4 jet_sheet(mat3 a, vec4 at, float thickness)
 {
     float steepest = jet_steepest(a), reach = at.y, grain = thickness / 16.0;
+    float around = 0.5 * thickness + grain;
     bool apart = a[2].x * a[2].y > 0.0, jumps = !apart && steepest > 1e17, last = reach <= grain;
-    float free = min(at.x / steepest - 0.5 * thickness, last ? grain : reach - grain);
-    float less = jumps ? 0.2 * reach : sqrt(max(free, 0.001 * reach) * reach);
-    less = free < 2.0 * grain && reach < 2.0 * thickness ? grain : max(less, grain);
-    return vec2(last && apart && steepest > 1e17 ? grain : free,
-                last || free > 0.4 * reach ? 0.0 : less);
+    bool steep = at.x < 0.001 * thickness * steepest;
+    float slow = min(at.x / steepest - 0.5 * thickness, last ? grain : reach - grain);
+    float known = max(at.w, apart ? max(slow, reach - 0.5 * thickness) : slow);
+    float less = max(jet_smaller(reach, known + 0.5 * thickness, jumps), grain);
+    less = known < 2.0 * grain && reach < 2.0 * thickness ? grain : less;
+    less = steep && reach > around && known < 0.0 ? around : less;
+    less = known > 0.4 * reach ? 0.0 : less;
+    float next = apart && known >= 0.0 ? jet_larger(reach, at.z) : less;
+    return vec4(at.x, last ? 0.0 : next, apart ? at.z : reach, known);
 }
 
 /* A search of the free way, see jets.h. */

@@ -35,6 +35,16 @@ static const struct shape {
            "'type':'implicit','params':{'equation':'max(|x|/0.3, |z|/0.5) < 1',"
            "'size':[2,1.6,2]}"};
 
+/* Each the same twice. The second one has an end where that of its domain is: its slope has no
+ * bound there. */
+static const struct shape
+    hill = {"'type':'implicit','params':{'equation':'exp(y) < 2*x','size':[2,1.2,1.6]}",
+            "'type':'implicit','params':{'equation':'y < log(2*x)','size':[2,1.2,1.6]}"},
+    slide = {"'type':'implicit','params':{'equation':'exp(y) = 2*x','size':[2,1.2,1.6],"
+             "'mode':'sheet'}",
+             "'type':'implicit','params':{'equation':'y = log(2*x)','size':[2,1.2,1.6],"
+             "'mode':'sheet'}"};
+
 #define BOX "{'type':'box','params':{'size':[0.9,0.9,0.9]}"
 #define AT(x, y, z) "'transform':{'translation':[" #x "," #y "," #z "]}"
 
@@ -71,6 +81,8 @@ static const struct composition {
      "," AT(0.5, 0.5, 0.3) "}]", &ball, true, HARDLY},
     {"smooth union of code", "'type':'smooth_union','params':{'k':0.2},'children':[" BOX "},{",
      "," AT(0.5, 0.3, 0.3) "}]", &ring_of_roots, true, IN_BLENDS},
+    {"end of a domain", "'type':'union','children':[{", "}]", &hill, false, HARDLY},
+    {"end of a sheet", "'type':'union','children':[{", "}]", &slide, false, HARDLY},
 };
 enum { COMPOSITIONS = sizeof compositions / sizeof compositions[0] };
 
@@ -173,8 +185,8 @@ static void equations_are_drawn_as_ordinary_shapes(void **state)
 
 /* --- walls --- */
 
-/* A cube root is steep at 0, where a sheet has a wall that the function's slope elsewhere tells
- * nothing of: an estimate of the distance by slopes leads through it. */
+/* At a jump a sheet has a wall that the function's slope elsewhere tells nothing of: an estimate of
+ * the distance by slopes leads through it. */
 static struct image shadow_of_wall(const char *kind)
 {
     char *text = NULL;
@@ -185,7 +197,7 @@ static struct image shadow_of_wall(const char *kind)
                  "'fov':40},'lights':[{'type':'directional','direction':[-0.3,-1,-0.2],"
                  "'shadow':'%s'}],'root':{'type':'union','children':[{'type':'plane',"
                  "'params':{'offset':-2}},{'type':'implicit','params':{'equation':"
-                 "'4 + x = sin(2*x)*cbrt(y)','mode':'sheet','thickness':0.3,'clip':'ball',"
+                 "'4 + x = 9*sign(y)','mode':'sheet','thickness':0.3,'clip':'ball',"
                  "'radius':1.5}}]}}",
                  kind) > 0);
     struct resident *resident = resident_create(renderer, drawing_parse(text), 1);

@@ -443,6 +443,102 @@ static void the_bound_comes_near(void **state)
     }
 }
 
+/* --- where a domain ends --- */
+
+/* In the plane z = 0: y = g(x), also beyond the end of the domain of g. */
+static double to_graph(const struct equation *equation, const double p[3])
+{
+    enum { PIECES = 4000 };
+    double nearest = INFINITY, from[2] = {0};
+
+    for (int i = 0; i <= PIECES; i++) {
+        const double x = 6.0 * i / PIECES - 3;
+        const double to[2] = {
+            x, -equation_value(equation, (const double[]){x, 0, 0}, equation_rows_values)};
+        const double way[2] = {to[0] - from[0], to[1] - from[1]};
+        const double square = way[0] * way[0] + way[1] * way[1];
+        const double along = ((p[0] - from[0]) * way[0] + (p[1] - from[1]) * way[1]) / square;
+        const double part = fmin(fmax(along, 0), 1);
+        const double off[2] = {p[0] - from[0] - part * way[0], p[1] - from[1] - part * way[1]};
+        nearest = i > 0 ? fmin(nearest, hypot(off[0], off[1])) : nearest;
+        from[0] = to[0];
+        from[1] = to[1];
+    }
+    return nearest;
+}
+
+/* Where a domain ends, the slope may be without bound, while there is no zero near. */
+static const struct {
+    const char *sheet, *solid;
+    double end;
+} graphs[] = {{"y = log(x)", "y < log(x)", 0},
+              {"y = sqrt(x)", "y < sqrt(x)", 0},
+              {"y = x^1.5", "y < x^1.5", 0},
+              {"y = asin(x)", "y < asin(x)", 1},
+              {"y = acos(x)", "y < acos(x)", -1}};
+#define LONGEST 0.8 /* at most this much of a distance has to be known */
+enum { GRAPHS = sizeof graphs / sizeof graphs[0] };
+
+static void point_at_end(struct random *random, double end, double out[3])
+{
+    const double way = pow(10, random_between(random, -8, 0));
+
+    equation_rows_point(random, 2, out);
+    out[0] = end + (random_below(random, 2) ? way : -way);
+}
+
+static void sheets_have_no_wall_at_the_end_of_a_domain(void **state)
+{
+    struct random random = {.state = 21};
+    (void)state;
+
+    for (size_t e = 0; e < GRAPHS; e++) {
+        struct field *field =
+            equation_rows_field(graphs[e].sheet, ",'mode':'sheet','thickness':0.05,"
+                                                 "'size':[6,6,6]");
+        struct equation *equation = equation_rows_read(graphs[e].sheet);
+        int beside = 0;
+        for (int i = 0; i < POINTS; i++) {
+            double p[3];
+            point_at_end(&random, graphs[e].end, p);
+            const double d = field_distance(field, p), exact = to_graph(equation, p);
+            beside += exact > 0.05;
+            if (d > exact || (exact > 0.05 && d < 0.02 * (fmin(exact, LONGEST) - 0.025))) {
+                fail_msg("%s at (%.9g, %.9g, %.9g): distance %g, %g to the middle of the sheet",
+                         graphs[e].sheet, p[0], p[1], p[2], d, exact);
+            }
+        }
+        assert_true(beside > POINTS / 2);
+        free(equation);
+        field_unref(field);
+    }
+}
+
+static void bounds_come_near_at_the_end_of_a_domain(void **state)
+{
+    struct random random = {.state = 22};
+    (void)state;
+
+    for (size_t e = 0; e < GRAPHS; e++) {
+        struct field *field = equation_rows_field(graphs[e].solid, ",'size':[6,6,6]");
+        struct equation *equation = equation_rows_read(graphs[e].solid);
+        double kept = 0, least = 1;
+        for (int i = 0; i < POINTS; i++) {
+            double p[3];
+            point_at_end(&random, graphs[e].end, p);
+            const double exact = to_graph(equation, p);
+            const double part = fabs(field_distance(field, p)) / fmin(exact, LONGEST);
+            kept += part / POINTS;
+            least = exact > 0.05 ? fmin(least, part) : least;
+        }
+        print_message("# %s: %.2f of the distance is kept, %.2f at least\n", graphs[e].solid, kept,
+                      least);
+        assert_true(least > 0.05);
+        free(equation);
+        field_unref(field);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -454,6 +550,8 @@ int main(void)
         cmocka_unit_test(sheets_are_thin_and_whole),
         cmocka_unit_test(the_engine_agrees),
         cmocka_unit_test(the_bound_comes_near),
+        cmocka_unit_test(sheets_have_no_wall_at_the_end_of_a_domain),
+        cmocka_unit_test(bounds_come_near_at_the_end_of_a_domain),
     };
 
     return cmocka_run_group_tests_name("implicit equations", tests, NULL, NULL);
