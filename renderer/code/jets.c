@@ -281,9 +281,10 @@ void jet_estimated(double *out, const double *const in[], int n)
     const double value = in[1][0], step = fmax(in[1][1], 1e-18), slope = length_of(in[0]);
     const double ahead = in[0][3] < 0 ? -in[2][3] : in[2][3];
     const double bend = (ahead - value + slope * step) / (step * step);
+    const double square = slope * slope - 4 * bend * value;
 
     UNUSED(n);
-    out[0] = 2 * value / fmax(slope + sqrt(fmax(slope * slope - 4 * bend * value, 0)), 1e-18);
+    out[0] = 2 * value / fmax(slope + copysign(sqrt(fabs(square)), square), 1e-18);
 }
 
 /* What an interval tells of the slope: the greatest; that nothing is 0; that there is a jump. */

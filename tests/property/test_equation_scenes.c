@@ -38,11 +38,11 @@ static const struct shape {
 /* Each the same twice. The second one has an end where that of its domain is: its slope has no
  * bound there. */
 static const struct shape
-    hill = {"'type':'implicit','params':{'equation':'exp(y) < 2*x','size':[2,1.2,1.6]}",
-            "'type':'implicit','params':{'equation':'y < log(2*x)','size':[2,1.2,1.6]}"},
-    slide = {"'type':'implicit','params':{'equation':'exp(y) = 2*x','size':[2,1.2,1.6],"
+    hill = {"'type':'implicit','params':{'equation':'exp(y) < 2*x','size':[2,3,1.6]}",
+            "'type':'implicit','params':{'equation':'y < log(2*x)','size':[2,3,1.6]}"},
+    slide = {"'type':'implicit','params':{'equation':'exp(y) = 2*x','size':[2,3,1.6],"
              "'mode':'sheet'}",
-             "'type':'implicit','params':{'equation':'y = log(2*x)','size':[2,1.2,1.6],"
+             "'type':'implicit','params':{'equation':'y = log(2*x)','size':[2,3,1.6],"
              "'mode':'sheet'}"};
 
 #define BOX "{'type':'box','params':{'size':[0.9,0.9,0.9]}"
@@ -81,8 +81,10 @@ static const struct composition {
      "," AT(0.5, 0.5, 0.3) "}]", &ball, true, HARDLY},
     {"smooth union of code", "'type':'smooth_union','params':{'k':0.2},'children':[" BOX "},{",
      "," AT(0.5, 0.3, 0.3) "}]", &ring_of_roots, true, IN_BLENDS},
-    {"end of a domain", "'type':'union','children':[{", "}]", &hill, false, HARDLY},
-    {"end of a sheet", "'type':'union','children':[{", "}]", &slide, false, HARDLY},
+    {"end of a domain", "'type':'union','children':[{", "," AT(0, 0.8, 0) "}]", &hill, false,
+     HARDLY},
+    {"end of a sheet", "'type':'union','children':[{", "," AT(0, 0.8, 0) "}]", &slide, false,
+     HARDLY},
 };
 enum { COMPOSITIONS = sizeof compositions / sizeof compositions[0] };
 
