@@ -21,6 +21,8 @@ const NEWCOMERS = 40;
 const COMING = 10;
 const REST_MS = 600; // after which a picture at rest would have come
 const SHARE = 16; // pictures of one client in the queue
+const QUEUE = 64; // of all clients
+const STOPPED_MS = 600_000; // a worker that a test stops is not taken for one that hangs
 const READERS = 50;
 const EACH = 10; // pictures of each of them
 const AHEAD = 300 / TILE_MS; // tiles by which urgent pictures may run ahead of one that is not (renderer/worker/turns.h)
@@ -28,7 +30,7 @@ const ball = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
 
 let daemon;
 before(async () => {
-    daemon = await startDaemon({ driver: 'null', tileMs: TILE_MS });
+    daemon = await startDaemon({ driver: 'null', tileMs: TILE_MS, args: ['--worker-silence', String(STOPPED_MS)] });
     await ask(daemon, 'POST', '/v1/scenes?id=one', ball);
     await ask(daemon, 'POST', '/v1/scenes?id=two', ball);
 });
@@ -182,12 +184,13 @@ const askFrom = (localAddress, at) =>
         const request = http.get(`${daemon.url}${at}`, { localAddress }, (answer) => {
             let text = '';
             answer.on('data', (bytes) => (text += bytes));
-            answer.on('end', () => done(text));
+            answer.on('end', () => done({ status: answer.statusCode, headers: answer.headers, text }));
         });
         request.on('error', (error) => (request.destroyed ? done(null) : fail(error)));
         leaving.push(() => request.destroy() && done(null));
     });
 const leaving = [];
+const queueOf = async (localAddress) => JSON.parse((await askFrom(localAddress, '/v1/queue')).text);
 
 test('pictures that wait have a position: clients take turns, small ones of one client go first', async () => {
     const waits = (count) => until(async () => (await counter(daemon, 'images_waiting')) === count, `${count} to wait`);
@@ -196,20 +199,41 @@ test('pictures that wait have a position: clients take turns, small ones of one 
         pictures.push(askFrom(address, `/v1/scenes/one/image.png?width=${side}&height=${side}`));
         await waits(pictures.length);
     }
-    const second = JSON.parse(await askFrom('127.0.0.2', '/v1/queue'));
-    assert.deepEqual([second.waiting, second.limit, second.clients, second.own_limit], [4, 64, 2, SHARE]);
+    const second = await queueOf('127.0.0.2');
+    assert.deepEqual([second.waiting, second.limit, second.clients, second.own_limit], [4, QUEUE, 2, SHARE]);
     assert.deepEqual(second.own.map(({ scene, width, height, position }) => [scene, width, height, position]), [
         ['one', 16000, 16000, 4],
         ['one', 15000, 15000, 3],
         ['one', 14000, 14000, 2],
     ]);
-    const third = JSON.parse(await askFrom('127.0.0.3', '/v1/queue'));
+    const third = await queueOf('127.0.0.3');
     assert.deepEqual(third.own.map(({ width, position }) => [width, position]), [[16001, 1]]);
     assert.ok(third.own.every(({ waited_ms, expected_ms }) => waited_ms >= 0 && expected_ms >= 0));
-    assert.deepEqual(JSON.parse(await askFrom('127.0.0.4', '/v1/queue')).own, []);
+    assert.deepEqual((await queueOf('127.0.0.4')).own, []);
     leaving.splice(0).forEach((leave) => leave());
     await Promise.all(pictures);
     await waits(0);
+});
+
+test('a full queue refuses whoever asks, and tells when to ask again; who waits in it gets the picture', async () => {
+    const worker = daemon.worker();
+    const small = (i) => `/v1/scenes/one/image.png?width=${8 + i}&height=8`;
+    const waiting = [];
+    await standStill(worker);
+    for (let i = 0; i < QUEUE; i += 1) {
+        waiting.push(askFrom(`127.0.1.${1 + Math.floor(i / SHARE)}`, small(i)));
+    }
+    await until(async () => (await counter(daemon, 'images_waiting')) === QUEUE, 'all to wait');
+    const refused = await askFrom('127.0.2.1', small(QUEUE));
+    process.kill(worker, 'SIGCONT');
+    const problem = JSON.parse(refused.text);
+    const told = [refused.status, problem.code, problem.detail, problem.position];
+    const clients = QUEUE / SHARE; // each has a turn before one who comes last
+    assert.deepEqual(told, [503, 'unavailable', `${QUEUE} pictures wait already; the limit is ${QUEUE}`, clients + 1]);
+    assert.match(refused.headers['retry-after'], /^[1-9]\d*$/);
+    assert.equal(await counter(daemon, 'images_over_queue_total'), 1);
+    assert.deepEqual((await Promise.all(waiting)).map(({ status }) => status), Array(QUEUE).fill(200));
+    assert.equal((await askFrom('127.0.2.1', small(QUEUE))).status, 200);
 });
 
 test('one who sends large edits without end leaves half of the time to others', async (t) => {
