@@ -7,6 +7,8 @@ import { ask, makeDirectory, removeDirectory, startDaemon } from '../support/dae
 import { decodePng } from '../support/png.mjs';
 
 const FORMAT = 'fieldcast-library/1';
+const KILLED = -2; // before a call (support/drivers/disk_driver.h)
+const WRITES = 4; // by which one life gets further than the one before
 const document = (name, root) => ({ format: 'fieldcast/1', name, root });
 const entry = (name, root = { type: 'sphere' }) => ({ kind: 'model', document: document(name, root) });
 const file = (entries) => ({ format: FORMAT, entries });
@@ -48,18 +50,25 @@ test('what was acknowledged is there after kill -9', async () => {
     removeDirectory(data);
 });
 
-test('of a file that was not acknowledged all is there or nothing', async () => {
+test('of a file that the daemon was killed over while it was written, nothing is there', async (t) => {
     const data = makeDirectory();
     const names = many(200, (i) => `x-${i}`);
-    for (let life = 0; life < 5; life += 1) {
-        const daemon = await startDaemon({ data, ready: false });
-        const before = await ids(daemon);
-        assert.ok(before.length === 0 || before.length === names.length, `${before.length} entries`);
-        const lost = answerOf(daemon, 'POST', '/v1/library', file(names.map((id) => ({ id, ...entry(id) })))).catch(() => null);
-        await new Promise((done) => setTimeout(done, 3 * life));
+    await (await startDaemon({ data, ready: false })).stop();
+    let answer = null;
+    let lives = 0;
+    for (; !answer; lives += 1) {
+        const fault = `${data}/scenes.sqlite-wal write ${1 + lives * WRITES} ${KILLED}`;
+        const daemon = await startDaemon({ data, ready: false, driver: ['disk', 'null'], environment: { DISK_FAULT: fault } });
+        assert.deepEqual(await ids(daemon), []);
+        answer = await answerOf(daemon, 'POST', '/v1/library', file(names.map((id) => ({ id, ...entry(id) })))).catch(() => null);
         await daemon.kill();
-        await lost;
     }
+    t.diagnostic(`killed ${lives - 1} times`);
+    assert.ok(lives > 3, `${lives} lives`);
+    assert.equal(answer.status, 201);
+    const daemon = await startDaemon({ data, ready: false });
+    assert.deepEqual(new Set(await ids(daemon)), new Set(names));
+    await daemon.stop();
     removeDirectory(data);
 });
 

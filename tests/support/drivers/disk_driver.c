@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -105,8 +106,13 @@ static bool path_of(int fd, char out[4096])
 static int fault(enum disk_call call)
 {
     const int number = __atomic_add_fetch(&counts[call], 1, __ATOMIC_SEQ_CST);
+    const bool fails = (int)call == failing_call && number == failing_nth;
 
-    return (int)call == failing_call && number == failing_nth ? failing_error : 0;
+    if (fails && failing_error == DISK_KILLED) {
+        kill(getpid(), SIGKILL);
+        pause(); /* no other thread does the call meanwhile */
+    }
+    return fails ? failing_error : 0;
 }
 
 #define REAL(name) ((typeof(&name))dlsym(RTLD_NEXT, #name))
@@ -274,7 +280,7 @@ int unlink(const char *path)
     return result;
 }
 
-/* DISK_FAULT="DIRECTORY CALL NTH ERRNO", of a program that is no test. */
+/* DISK_FAULT="PATH CALL NTH ERRNO", of a program that is no test. */
 __attribute__((constructor)) static void arm_by_environment(void)
 {
     static const char *const names[] = {

@@ -25,7 +25,11 @@ enum disk_call {
     DISK_NOTE,
 };
 
-enum { DISK_SHORT = -1 }; /* instead of an errno: half of it is written or read */
+/* Instead of an errno. */
+enum {
+    DISK_SHORT = -1,  /* half of it is written or read */
+    DISK_KILLED = -2, /* the process ends before it */
+};
 
 struct disk_entry {
     uint32_t call;        /* enum disk_call */
