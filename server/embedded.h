@@ -39,6 +39,9 @@ extern const size_t templates_count;
 extern const struct embedded references_table[];
 extern const size_t references_count;
 
+/* The bytes of a file that is compressed, as it was before; the caller frees them. */
+void *embedded_unpack(const struct embedded *file, size_t *out_length);
+
 /* The row with this path or id; NULL where there is none. */
 const struct embedded *page_find(const char *path);
 const struct embedded *examples_find(const char *id);

@@ -192,6 +192,35 @@ bool request_check_match(const struct request *request, const char *tag, struct 
            error_set(err, ERROR_PRECONDITION, "If-None-Match", "the tag is %s", tag);
 }
 
+/* --- codings (RFC 9110, 12.5.3) --- */
+
+/* What may follow the name of a coding: `;q=0` refuses it. */
+static bool has_weight(const char *after)
+{
+    after += strspn(after, "; \t");
+    return strncasecmp(after, "q=", 2) != 0 || strtod(after + 2, NULL) > 0;
+}
+
+bool request_wants_gzip(const struct request *request)
+{
+    const char *list = request_header(request, "Accept-Encoding");
+    bool others = false; /* those that are not named */
+
+    while (list && *list) {
+        list += strspn(list, ", \t");
+        const size_t length = strcspn(list, ",; \t");
+
+        if (length == 4 && strncasecmp(list, "gzip", length) == 0) {
+            return has_weight(list + length);
+        }
+        if (length == 1 && *list == '*') {
+            others = has_weight(list + length);
+        }
+        list += strcspn(list, ",");
+    }
+    return others;
+}
+
 /* --- responses --- */
 
 void response_add(struct response *response, const char *name, const char *format, ...)

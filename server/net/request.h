@@ -62,6 +62,9 @@ bool request_knows_tag(const struct request *request, const char *tag);
  * has it. NULL: there is nothing yet. */
 bool request_check_match(const struct request *request, const char *tag, struct error *err);
 
+/* Whether Accept-Encoding asks for gzip. Without that header nothing does. */
+bool request_wants_gzip(const struct request *request);
+
 /* Answers the request once; any thread. Takes the body of `response`, or its reference. The request
  * must not be used afterwards. */
 void request_reply(struct request *request, const struct response *response);

@@ -93,6 +93,28 @@ static char *read_below(const char *directory, const char *path, size_t *out_len
     return bytes;
 }
 
+/* A compressed file is sent as it is to those who ask for that. */
+static struct response built_in(const struct request *request, const struct embedded *file)
+{
+    struct response response = {.status = 200,
+                                .type = file->mime,
+                                .body = (void *)file->bytes,
+                                .length = file->length,
+                                .borrowed = true};
+
+    if (!file->gzip) {
+        return response;
+    }
+    response_add(&response, "Vary", "Accept-Encoding");
+    if (request_wants_gzip(request)) {
+        response_add(&response, "Content-Encoding", "gzip");
+    } else {
+        response.body = embedded_unpack(file, &response.length);
+        response.borrowed = false;
+    }
+    return response;
+}
+
 static bool reply_file(struct request *request, const char *path)
 {
     struct response response = {.status = 200};
@@ -109,13 +131,7 @@ static bool reply_file(struct request *request, const char *path)
         if (!asset) {
             return false;
         }
-        response.type = asset->mime;
-        response.body = (void *)asset->bytes;
-        response.length = asset->length;
-        response.borrowed = true;
-        if (asset->gzip) {
-            response_add(&response, "Content-Encoding", "gzip");
-        }
+        response = built_in(request, asset);
     }
     add_caching(&response, path);
     request_reply(request, &response);
@@ -276,11 +292,8 @@ void site_example(struct request *request)
         reply_not_found(request);
         return;
     }
-    struct response response = {.status = 200,
-                                .type = "application/json",
-                                .body = (void *)example->bytes,
-                                .length = example->length,
-                                .borrowed = true};
+    const struct response response = built_in(request, example);
+
     request_reply(request, &response);
 }
 
@@ -290,11 +303,8 @@ static void reply_picture(struct request *request, const struct embedded *pictur
         reply_not_found(request);
         return;
     }
-    struct response response = {.status = 200,
-                                .type = picture->mime,
-                                .body = (void *)picture->bytes,
-                                .length = picture->length,
-                                .borrowed = true};
+    struct response response = built_in(request, picture);
+
     response_add(&response, "Cache-Control", "max-age=3600");
     request_reply(request, &response);
 }

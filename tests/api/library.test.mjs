@@ -180,6 +180,22 @@ describe('pictures and copies', () => {
         assert.ok((await middle('ball')).center[1] > 200);
     });
 
+    test('an entry that the client has is not sent again until it changes', async () => {
+        const at = `${daemon.url}/v1/library/tagged`;
+        await ask(daemon, 'PUT', '/v1/library/tagged', withRed('Tagged', 'model'));
+        const tag = (await fetch(at)).headers.get('ETag');
+        const asked = (...tags) => fetch(at, { headers: { 'If-None-Match': tags.join(', ') } });
+        for (const known of [await asked(tag), await asked('"other"', `W/${tag}`)]) {
+            assert.deepEqual([known.status, known.headers.get('ETag'), await known.text()], [304, tag, '']);
+        }
+        await ask(daemon, 'PUT', '/v1/library/tagged', withRed('Changed', 'model'));
+        const changed = await asked(tag);
+        assert.equal(changed.status, 200);
+        assert.notEqual(changed.headers.get('ETag'), tag);
+        assert.equal((await changed.json()).document.name, 'Changed');
+        await ask(daemon, 'DELETE', '/v1/library/tagged');
+    });
+
     test('a scene keeps what it took when the entry goes', async () => {
         const { document: copy } = await ask(daemon, 'GET', '/v1/library/ball');
         await ask(daemon, 'POST', '/v1/scenes?id=taker', copy);
