@@ -500,9 +500,13 @@ static void streams_are_kept_by_name_as_far_as_there_is_room(void **state)
     assert_ptr_not_equal(first, second); /* who takes one has it alone */
     first->order = 5;
     first->bytes = LIMIT_DELTAS_BYTES / 2;
+    second->order = 4;
     kept_streams_give_back(&streams, second);
     kept_streams_give_back(&streams, first);
     assert_ptr_equal(kept_streams_take(&streams, "a", &delta_stream), first);
+    second = kept_streams_take(&streams, "a", &delta_stream);
+    assert_int_equal(second->order, 0); /* another one: of each name one is kept */
+    kept_streams_give_back(&streams, second);
     kept_streams_give_back(&streams, first);
     second = kept_streams_take(&streams, "b", &delta_stream);
     assert_int_equal(second->order, 0);
@@ -558,6 +562,8 @@ static void streams_count_as_much_as_they_hold(void **state)
     kept_stream_begin(given_up, NOT_TOO_LARGE, NOT_TOO_LARGE);
     kept_stream_begin(given_up, LARGE, LARGE);
     assert_true(given_up->bytes > 4 * NOT_TOO_LARGE * NOT_TOO_LARGE);
+    kept_stream_end(given_up, 6, 1, 1); /* the picture in its place is small */
+    assert_true(given_up->bytes < 4 * NOT_TOO_LARGE * NOT_TOO_LARGE);
     kept_streams_give_back(&streams, given_up);
     give_back(&streams, "b", 8, 1);
     for (int i = 0; i < MANY; i++) {

@@ -29,10 +29,10 @@ function setUp(readSchema: () => Promise<Schema>) {
             stores.document.setState({ ...EMPTY_DOCUMENT_STATE, scene, schema });
         },
         disconnect: () => stores.link.setState(IDLE_LINK),
-        retry: () => undefined,
+        retry: vi.fn(),
     };
     const opener = new Opener({ stores, link, rest: { readSchema } }, Promise.resolve(AUTHOR));
-    return { stores, opener, connected };
+    return { stores, opener, connected, link };
 }
 
 /* Answers in the order of the questions, when the test says so. */
@@ -78,6 +78,62 @@ test("a schema that does not come is told and asked for again", async () => {
     readSchema.mockResolvedValue(SCHEMA);
     await vi.advanceTimersByTimeAsync(2000);
     expect(connected).toEqual(["a"]);
+});
+
+/* A schema that does not come, and the time until it is asked for again. */
+function setUpWithout(status: number) {
+    const readSchema = vi.fn<() => Promise<Schema>>();
+    readSchema.mockRejectedValue(new RestError(status, "other", "", "no"));
+    const { stores, ...all } = setUp(readSchema);
+    const left = () => (stores.link.getState().retryAt ?? 0) - performance.now();
+    return { ...all, readSchema, left };
+}
+
+test("a schema is asked for when it is said, and at once when that is asked for", async () => {
+    const { opener, readSchema, left } = setUpWithout(0);
+    void opener.open("a");
+    await settled();
+    await vi.advanceTimersByTimeAsync(left() - 1);
+    expect(readSchema).toHaveBeenCalledTimes(1);
+    await vi.advanceTimersByTimeAsync(1);
+    expect(readSchema).toHaveBeenCalledTimes(2);
+    /* The time that is not waited for any more ends nothing. */
+    const first = left();
+    await vi.advanceTimersByTimeAsync(first / 2);
+    opener.retry();
+    await settled();
+    expect(readSchema).toHaveBeenCalledTimes(3);
+    await vi.advanceTimersByTimeAsync(first / 2);
+    expect(readSchema).toHaveBeenCalledTimes(3);
+    opener.retry();
+    await settled();
+    expect(readSchema).toHaveBeenCalledTimes(4);
+});
+
+test("a schema that is refused is asked for again on request alone", async () => {
+    const { opener, readSchema } = setUpWithout(401);
+    void opener.open("a");
+    await vi.advanceTimersByTimeAsync(10_000);
+    expect(readSchema).toHaveBeenCalledTimes(1);
+    opener.retry();
+    await settled();
+    expect(readSchema).toHaveBeenCalledTimes(2);
+});
+
+test("with the schema a retry is the link's, and no scene asks for the schema again", async () => {
+    const { opener, readSchema, connected, link } = setUpWithout(0);
+    void opener.open("a");
+    await settled();
+    readSchema.mockResolvedValue(SCHEMA);
+    opener.retry();
+    await settled();
+    expect(link.retry).not.toHaveBeenCalled();
+    opener.retry();
+    expect(link.retry).toHaveBeenCalledTimes(1);
+    void opener.open("b");
+    await settled();
+    expect(connected).toEqual(["a", "b"]);
+    expect(readSchema).toHaveBeenCalledTimes(2);
 });
 
 test("no schema is asked for once its scene was left", async () => {

@@ -13,7 +13,7 @@ import { createStores } from "../src/model/stores.ts";
 import { checkText, cutToBytes } from "../src/model/values.ts";
 import CodePanel from "../src/ui/code/CodePanel.tsx";
 import type { Editor } from "../src/ui/editor.ts";
-import { cutInput } from "../src/ui/fields/nameCut.ts";
+import { cutInput, useNameCut } from "../src/ui/fields/nameCut.ts";
 import { useTypedText } from "../src/ui/fields/typedText.ts";
 import { EditorContext } from "../src/ui/state.ts";
 import { SCHEMA } from "./fixture.ts";
@@ -171,6 +171,30 @@ test("code follows what others write and what is undone", async () => {
 
 /* --- a field --- */
 
+/* Types as a browser does: React watches the property. */
+const typeInto = (input: HTMLInputElement, text: string) =>
+    act(async () => {
+        const own = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value");
+        own?.set?.call(input, text);
+        input.dispatchEvent(new Event("input", { bubbles: true }));
+    });
+
+function Name() {
+    const cut = useNameCut();
+    return <input onInput={(event) => cut(event.currentTarget)} />;
+}
+
+test("a name has as many bytes as the server takes", async () => {
+    await show(
+        <EditorContext value={setUp().editor}>
+            <Name />
+        </EditorContext>,
+    );
+    const input = element.querySelector("input") as HTMLInputElement;
+    await typeInto(input, "123456789");
+    expect(input.value).toBe("12345678");
+});
+
 interface FieldProps {
     onCommit?: (text: string) => void;
     onCancel?: () => void;
@@ -205,7 +229,6 @@ async function openField(editor: Editor, props: FieldProps) {
         );
     await draw();
     const input = element.querySelector("input") as HTMLInputElement;
-    const setValue = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value")?.set;
     return {
         draw,
         text: () => input.value,
@@ -213,11 +236,7 @@ async function openField(editor: Editor, props: FieldProps) {
             act(async () => {
                 input.dispatchEvent(new KeyboardEvent("keydown", { key: name, bubbles: true }));
             }),
-        type: (text: string) =>
-            act(async () => {
-                setValue?.call(input, text);
-                input.dispatchEvent(new Event("input", { bubbles: true }));
-            }),
+        type: (text: string) => typeInto(input, text),
     };
 }
 

@@ -41,6 +41,17 @@ test("one text or one range is replaced, and the rest stays", () => {
     expect(withRange(value, "u", () => [0, 5])).toBe(value);
 });
 
+test("a surface or a range that is not there yet begins with what would be shown", () => {
+    const empty = { x: "", y: "", z: "" };
+    expect(withText({}, "y", "u")).toEqual({ ...empty, y: "u", s: [-1, 1], u: [-1, 1] });
+    expect(withRange({}, "t", () => [0, 1])).toEqual({ ...empty, s: [-1, 1], t: [0, 1] });
+    const unset = { x: "u", y: "v", z: "1", u: [0, 2] } as const;
+    expect(withRange(unset, "v", ([low, high]) => [low, 3 * high])).toEqual({
+        ...unset,
+        v: [-1, 3],
+    });
+});
+
 test("a node's own letters become numbers, and no others", () => {
     const texts = withNumbers({ x: "2a*cos(t)", y: "abs(a - b)", z: "a1 + s" }, { a: -0.5, b: 2 });
     expect(texts).toEqual({ x: "2(-0.5)*cos(t)", y: "abs((-0.5) - (2))", z: "a1 + s" });
