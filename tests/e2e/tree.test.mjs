@@ -49,6 +49,10 @@ describe('by keys', () => {
         await page.keyboard.press('ArrowRight');
         await row(page, 'ring').waitFor();
         assert.deepEqual(await rows(page), ['root', 'ball', 'crate', 'pair', 'ring', 'pole']);
+        for (const [key, reached] of [['ArrowRight', 'ring'], ['ArrowLeft', 'pair'], ['End', 'pole'], ['Home', 'root']]) {
+            await page.keyboard.press(key);
+            await page.locator(`[data-node=${reached}][aria-selected=true]:focus`).waitFor();
+        }
     });
 
     test('add by a synonym', async () => {

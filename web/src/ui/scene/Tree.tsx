@@ -165,35 +165,59 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
 
 type Item = ItemInstance<TreeItem>;
 
-/* Up and down select what they reach, with Shift up to it; while a row is carried they move it
- * instead. */
-function stepKey(hotkey: string, by: 1 | -1) {
+/* Keys select what they reach, with Shift up to it; while a row is carried, arrows move it instead. */
+function reachKey(hotkey: string, reach: (now: Item) => Item | null | undefined) {
     return {
         hotkey,
         canRepeat: true,
         preventDefault: true,
         isEnabled: (tree: TreeInstance<TreeItem>) => !tree.getState().dnd,
-        handler: (event: KeyboardEvent, tree: TreeInstance<TreeItem>) =>
-            step(tree, by, event.shiftKey),
+        handler: (event: KeyboardEvent, tree: TreeInstance<TreeItem>) => {
+            const reached = reach(tree.getFocusedItem());
+            if (reached) {
+                select(tree, reached, event.shiftKey);
+            }
+        },
     };
+}
+
+const below = (now: Item): Item => now.getItemBelow() ?? now;
+const above = (now: Item): Item => now.getItemAbove() ?? now;
+
+/* Null: it unfolds what is there. */
+function inside(now: Item): Item | null {
+    if (now.isExpanded() || !now.isFolder()) {
+        return below(now);
+    }
+    now.expand();
+    return null;
+}
+
+/* Null: it folds what is there. */
+function outside(now: Item): Item | null | undefined {
+    if ((!now.isExpanded() || !now.isFolder()) && now.getItemMeta().level !== 0) {
+        return now.getParent();
+    }
+    now.collapse();
+    return null;
 }
 
 /* Of the tree's own keys, those that do something else here. */
 const HOTKEYS = {
-    focusNextItem: stepKey("ArrowDown", 1),
-    focusPreviousItem: stepKey("ArrowUp", -1),
-    selectDownwards: stepKey("Shift+ArrowDown", 1),
-    selectUpwards: stepKey("Shift+ArrowUp", -1),
+    focusNextItem: reachKey("ArrowDown", below),
+    focusPreviousItem: reachKey("ArrowUp", above),
+    selectDownwards: reachKey("Shift+ArrowDown", below),
+    selectUpwards: reachKey("Shift+ArrowUp", above),
+    expandOrDown: reachKey("ArrowRight", inside),
+    collapseOrUp: reachKey("ArrowLeft", outside),
+    focusFirstItem: reachKey("Home", (now) => now.getTree().getItems()[0]),
+    focusLastItem: reachKey("End", (now) => now.getTree().getItems().at(-1)),
 };
 
-function step(tree: TreeInstance<TreeItem>, by: 1 | -1, range: boolean): void {
-    if (by > 0) {
-        tree.focusNextItem();
-    } else {
-        tree.focusPreviousItem();
-    }
+function select(tree: TreeInstance<TreeItem>, item: Item, range: boolean): void {
+    const id = item.getId();
+    item.setFocused();
     tree.updateDomFocus();
-    const id = tree.getFocusedItem().getId();
     if (range) {
         selectTo(tree, id);
     } else {
