@@ -47,9 +47,14 @@ function whyHeld({ stores }: App, { group, takesOver }: Command): string | null 
     return held && waits ? text("why.held") : null;
 }
 
+/* What speaks against a command now; null: nothing. */
+export function whyNotNow(app: App, command: Command): string | null {
+    return whyHeld(app, command) ?? command.whyNot(app);
+}
+
 /* Runs a command unless something speaks against it; answers the reason or null. */
 export function runCommand(app: App, command: Command): string | null {
-    const reason = whyHeld(app, command) ?? command.whyNot(app);
+    const reason = whyNotNow(app, command);
     if (reason === null) {
         command.run(app);
     }

@@ -509,8 +509,6 @@ const texts = {
     "palette.move": "move",
     "palette.close": "close",
     "palette.place": "place",
-    "history.noUndo": "There is nothing of yours to undo.",
-    "history.noRedo": "There is nothing to redo.",
     close: "Close",
     dismiss: "Dismiss",
     "undo.act": "Undo",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A command as an icon button or a menu item: title, key and reason come from the table. */
 import type { ReactNode } from "react";
-import { commandById, runCommand } from "../../model/commandLookup.ts";
+import { commandById, runCommand, whyNotNow } from "../../model/commandLookup.ts";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { Button, IconButton } from "../widgets/Button.tsx";
 import { MenuItem } from "../widgets/Menu.tsx";
@@ -9,21 +9,25 @@ import { useKeyText } from "./keys.ts";
 
 interface Props {
     id: string;
+    /* In the place of the command's own. */
+    title?: string;
     children?: ReactNode;
 }
 
 /* Renders anew when what commands depend on has changed. */
-function useReason(id: string): string | null {
+function useReason(id: string, whyNot = whyNotNow): string | null {
     const editor = useEditor();
     useDocument((state) => state.document === null);
     useDocument((state) => state.document?.camera);
     useDocument((state) => state.canUndo);
     useDocument((state) => state.canRedo);
     useView((view) => view.selection);
-    return commandById(id)?.whyNot(editor) ?? null;
+    useView((view) => view.held);
+    const command = commandById(id);
+    return command && whyNot(editor, command);
 }
 
-export function ActButton({ id, children }: Props) {
+export function ActButton({ id, title, children }: Props) {
     const editor = useEditor();
     const command = commandById(id);
     const reason = useReason(id);
@@ -31,7 +35,7 @@ export function ActButton({ id, children }: Props) {
     return (
         command && (
             <IconButton
-                title={command.title}
+                title={title ?? command.title}
                 keys={keys}
                 whyNot={reason}
                 data-command={id}
@@ -43,11 +47,11 @@ export function ActButton({ id, children }: Props) {
     );
 }
 
-/* With its words; left out while it cannot run. */
+/* With its words; left out while it cannot run, but not for as long as a hand holds something. */
 export function CommandButton({ id }: Props) {
     const editor = useEditor();
     const command = commandById(id);
-    const reason = useReason(id);
+    const reason = useReason(id, (app, { whyNot }) => whyNot(app));
     return (
         command &&
         reason === null && (

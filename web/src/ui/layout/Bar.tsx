@@ -32,7 +32,7 @@ import { Button, IconButton } from "../widgets/Button.tsx";
 import { Logo } from "../widgets/Logo.tsx";
 import { Menu, MenuItem, MenuLine } from "../widgets/Menu.tsx";
 import { Tip } from "../widgets/Tip.tsx";
-import { ActItem } from "./Act.tsx";
+import { ActButton, ActItem } from "./Act.tsx";
 import { useKeyText } from "./keys.ts";
 import { Region } from "./Region.tsx";
 import { Saved } from "./Saved.tsx";
@@ -160,31 +160,16 @@ function SceneMenu({ onRename }: { onRename: () => void }) {
 }
 
 function History() {
-    const editor = useEditor();
-    const canUndo = useDocument((state) => state.canUndo);
-    const canRedo = useDocument((state) => state.canRedo);
     const undo = useDocument((state) => undoTitle(state.history));
     const redo = useDocument((state) => redoTitle(state.history));
     return (
         <>
-            <IconButton
-                title={undo}
-                keys={useKeyText("edit.undo")}
-                data-command="edit.undo"
-                whyNot={canUndo ? null : t("history.noUndo")}
-                onClick={() => editor.undo()}
-            >
+            <ActButton id="edit.undo" title={undo}>
                 <Undo2 size={16} />
-            </IconButton>
-            <IconButton
-                title={redo}
-                keys={useKeyText("edit.redo")}
-                data-command="edit.redo"
-                whyNot={canRedo ? null : t("history.noRedo")}
-                onClick={() => editor.redo()}
-            >
+            </ActButton>
+            <ActButton id="edit.redo" title={redo}>
                 <Redo2 size={16} />
-            </IconButton>
+            </ActButton>
         </>
     );
 }

@@ -3,6 +3,7 @@
  * themselves. */
 import { CircleAlert, Info, TriangleAlert, X } from "lucide-react";
 import { memo, useEffect } from "react";
+import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { findResource } from "../../model/document.ts";
 import { nodeOfPlace, resourceOfPlace } from "../../model/places.ts";
 import { dismissNotice, type Notice, type NoticeAct } from "../../model/stores.ts";
@@ -41,7 +42,10 @@ function ActButton({ act, id }: { act: NoticeAct; id: number }) {
     }
     const run = (): void => {
         if (act.kind === "undo") {
-            editor.undo();
+            const command = commandById("edit.undo");
+            if (command && runCommand(editor, command) !== null) {
+                return;
+            }
         } else if ("run" in act) {
             act.run();
         } else if (act.kind === "retry") {

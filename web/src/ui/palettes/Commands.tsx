@@ -3,7 +3,7 @@
 import { Bookmark, Box, ChevronRight, Info, Layers2 } from "lucide-react";
 import { type ReactNode, useCallback, useEffect, useState } from "react";
 import type { SceneEntry } from "../../link/rest.ts";
-import { runCommand, searchAbsent, searchCommands } from "../../model/commandLookup.ts";
+import { runCommand, searchAbsent, searchCommands, whyNotNow } from "../../model/commandLookup.ts";
 import { COMMANDS } from "../../model/commands.ts";
 import { nodeLabel, type SceneDocument, typesOf } from "../../model/document.ts";
 import { keysOf } from "../../model/keymap.ts";
@@ -48,7 +48,7 @@ function commandEntries(editor: Editor, query: string): Entry[] {
         title: command.title,
         keys: keyText(keysOf(command, COMMANDS, preferences)[0]),
         icon: <ChevronRight size={15} aria-hidden="true" />,
-        whyNot: command.whyNot(editor),
+        whyNot: whyNotNow(editor, command),
         run: () => {
             const reason = runCommand(editor, command);
             if (reason !== null) {
