@@ -11,7 +11,8 @@ import { projectionOf, type Spot } from "../src/model/projection.ts";
 import { readSchema } from "../src/model/schema.ts";
 import { createStores, NO_FRAME } from "../src/model/stores.ts";
 import { Hands } from "../src/overlay/hands.ts";
-import type { Holding, Press } from "../src/overlay/pointer.ts";
+import type { Holding, PointerActions, Press } from "../src/overlay/pointer.ts";
+import { SectionHand } from "../src/overlay/section.ts";
 import type { Editor } from "../src/ui/editor.ts";
 import { handsPage } from "../src/ui/view/pointer.ts";
 
@@ -119,6 +120,33 @@ test("the wheel leaves the camera alone while something is held", () => {
     holding.end();
     moveCamera({ stores }, () => zoomed);
     expect(stores.camera.getState().camera).toBe(zoomed);
+});
+
+test("the wheel leaves the camera alone while the arrow of the section is held", () => {
+    const [field, arrow] = [document.createElement("div"), document.createElement("div")];
+    field.setPointerCapture = () => undefined;
+    document.body.append(field);
+    const told = document.createElement("div");
+    const outline = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    stores.view.setState({ section: { axis: "x", at: 0, flipped: false } });
+    const actions = { gesture: () => undefined } as unknown as PointerActions;
+    const hand = new SectionHand(stores, actions, { field, room: field, arrow, outline, told });
+    const point = (type: string, clientX: number) =>
+        field.dispatchEvent(new MouseEvent(`pointer${type}`, { clientX, buttons: 1 }));
+    const { camera } = stores.camera.getState();
+    const zoomed = dolly(camera, 0.5);
+    point("down", 10);
+    point("move", 30);
+    moveCamera({ stores }, () => zoomed);
+    expect(stores.camera.getState().camera).toBe(camera);
+    point("up", 30);
+    moveCamera({ stores }, () => zoomed);
+    expect(stores.camera.getState().camera).toBe(zoomed);
+    stores.camera.setState({ camera });
+    point("down", 10);
+    point("move", 30);
+    hand.end();
+    expect(stores.view.getState().held).toBe(false);
 });
 
 test("what was taken in one scene changes nothing in another with the same names", () => {

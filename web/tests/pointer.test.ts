@@ -62,6 +62,19 @@ test("a press that stays selects, with its modifiers", () => {
     expect(turned()).toBe(false);
 });
 
+test("a picture that gets another size does not turn the camera; the drag goes on", () => {
+    machine.down(at(100, 10));
+    machine.move(at(200, 10));
+    const before = camera;
+    machine.resize(640, 180);
+    machine.move(at(200, 10));
+    expect(camera).toEqual(before);
+    machine.move(at(201, 10));
+    expect(camera).not.toEqual(before);
+    machine.cancel();
+    expect(camera).toBe(DEFAULT_CAMERA);
+});
+
 test("left drags orbit, right drags pan, a right click is the menu", () => {
     machine.down(at(10, 10));
     machine.move(at(60, 10));

@@ -123,7 +123,13 @@ export class PointerMachine {
     }
 
     resize(width: number, height: number): void {
+        const before = this.#size;
         this.#size = { width: Math.max(1, width), height: Math.max(1, height) };
+        const changed = before.width !== this.#size.width || before.height !== this.#size.height;
+        if (changed && this.#state.kind === "dragging") {
+            /* A pixel means another angle from now on, not on the way so far. */
+            this.#startDrag(this.#state.gesture);
+        }
     }
 
     setSpace(held: boolean): void {

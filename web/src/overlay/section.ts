@@ -91,6 +91,7 @@ export class SectionHand {
         let pointer: Spot = press;
         const finish = (): void => {
             this.#grip = null;
+            this.#stores.view.setState({ held: false });
             delete arrow.dataset.held;
             told.hidden = true;
             this.#draw();
@@ -98,6 +99,7 @@ export class SectionHand {
         return {
             start: () => {
                 this.#grip = this.#gripAt(press);
+                this.#stores.view.setState({ held: true });
                 arrow.dataset.held = "";
                 arrow.focus({ preventScroll: true });
             },
