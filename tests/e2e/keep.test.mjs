@@ -3,7 +3,7 @@
 // label, ranges of rows, menus and clicks while the server is slow, several nodes at once.
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
-import { ask, standStill } from '../support/daemon.mjs';
+import { ask, standStill, until } from '../support/daemon.mjs';
 import {
     documentWhen,
     dragBy,
@@ -561,6 +561,30 @@ describe('by touch', () => {
         await page.getByTestId('inspector').waitFor();
         const { x, width } = await page.getByTestId('outputs').boundingBox();
         assert.ok(x + width <= 390, `the outputs end at ${x + width}`);
+    });
+
+    test('what moves below a finger that taps is not pressed', async () => {
+        await open({ width: 390, height: 844, touch: true });
+        await page.evaluate(() => {
+            window.clicked = [];
+            const tell = ({ target }) => window.clicked.push(target.ariaLabel ?? target.className);
+            window.addEventListener('click', tell, true);
+        });
+        const grip = page.getByRole('button', { name: 'Panel height' });
+        const height = async () => (await picture(page).boundingBox()).height;
+        await page.getByRole('tab', { name: 'Edit' }).tap();
+        const middle = await height();
+        await grip.tap();
+        await until(async () => (await height()) < middle, 'a tall sheet');
+        await grip.tap();
+        await until(async () => (await height()) > middle, 'a low sheet');
+        await settled(page);
+        const box = await picture(page).boundingBox();
+        await page.touchscreen.tap(box.x + box.width / 2, box.y + box.height * 0.8);
+        await page.getByTestId('inspector').getByPlaceholder('pole').waitFor();
+        await until(async () => (await height()) === middle, 'the values of what was tapped');
+        await page.getByRole('tab', { name: 'Nodes' }).tap();
+        assert.deepEqual(await page.evaluate(() => window.clicked.filter((one) => one !== 'tab')), ['Panel height', 'Panel height']);
     });
 });
 

@@ -472,6 +472,13 @@ export function attachPointer(element: HTMLElement, actions: PointerActions): ()
     element.addEventListener("pointerup", onUp, options);
     element.addEventListener("pointercancel", () => machine.end(), options);
     element.addEventListener("lostpointercapture", onUp, options);
+    /* Else its click goes to what a tap has brought below the finger. */
+    const onTouchEnd = (event: TouchEvent): void => {
+        if (event.cancelable) {
+            event.preventDefault();
+        }
+    };
+    element.addEventListener("touchend", onTouchEnd, { ...options, passive: false });
     element.addEventListener("wheel", onWheel, { ...options, passive: false });
     element.addEventListener("contextmenu", (event) => event.preventDefault(), options);
     window.addEventListener("keydown", onKey, { ...options, capture: true });

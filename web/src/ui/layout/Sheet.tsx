@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* On a phone: the picture above, one sheet below with three heights. */
-import { type ReactNode, useEffect, useRef, useState } from "react";
+import { type MouseEvent, type ReactNode, useEffect, useRef, useState } from "react";
 import { type Drawer, drawerOf, drawersOf } from "../../model/view.ts";
 import { Inspector } from "../inspector/Inspector.tsx";
 import { Resources, Setup } from "../scene/Resources.tsx";
@@ -48,7 +48,8 @@ function usePicked(touched: { readonly current: string }, run: () => void): void
 export function Sheet({ picture }: { picture: ReactNode }) {
     const [tab, setTab] = useState<Tab>("scene");
     const [height, setHeight] = useState(1);
-    const from = useRef<number | null>(null);
+    const from = useRef(0);
+    const dragged = useRef(false);
     /* What was touched last. */
     const touched = useRef<"picture" | "sheet">("sheet");
     const code = useView((view) => view.code);
@@ -70,10 +71,17 @@ export function Sheet({ picture }: { picture: ReactNode }) {
         setHeight((now) => Math.max(1, now));
     };
     const release = (y: number): void => {
-        const moved = from.current === null ? 0 : y - from.current;
-        from.current = null;
-        const step = Math.abs(moved) < 8 ? (height === 2 ? -2 : 1) : moved < 0 ? 1 : -1;
-        setHeight(Math.min(2, Math.max(0, height + step)));
+        const moved = y - from.current;
+        dragged.current = Math.abs(moved) >= 8;
+        if (dragged.current) {
+            setHeight(Math.min(2, Math.max(0, height + (moved < 0 ? 1 : -1))));
+        }
+    };
+    /* By a key or a tap. One that acts before the click leaves the click to what it moves there. */
+    const press = ({ detail }: MouseEvent): void => {
+        if (detail === 0 || !dragged.current) {
+            setHeight((height + 1) % heights.length);
+        }
     };
     return (
         <div className="stack" style={{ gridTemplateRows: `1fr ${heights[height]}` }}>
@@ -102,12 +110,7 @@ export function Sheet({ picture }: { picture: ReactNode }) {
                         event.currentTarget.setPointerCapture(event.pointerId);
                     }}
                     onPointerUp={(event) => release(event.clientY)}
-                    onKeyDown={(event) => {
-                        if (event.key === "Enter" || event.key === " ") {
-                            event.preventDefault();
-                            setHeight((height + 1) % heights.length);
-                        }
-                    }}
+                    onClick={press}
                 />
                 <Tabs
                     tabs={tabs.map((id) => ({ id, title: t(`tab.${id}`) }))}
