@@ -2,7 +2,7 @@
 /* Menus: opened by a button, or at a point (a right click or a long press). */
 import { Menu as Base } from "@base-ui/react/menu";
 import { Check } from "lucide-react";
-import type { ReactElement, ReactNode } from "react";
+import { type ReactElement, type ReactNode, type RefObject, useEffect, useRef } from "react";
 import "./popup.css";
 
 interface MenuProps {
@@ -40,7 +40,23 @@ interface PointMenuProps {
     children: ReactNode;
 }
 
+/* A finger on the picture brings none of the mouse's events, by which a menu sees that it is left. */
+function useTouchOutside(popup: RefObject<HTMLElement | null>, onTouch: () => void): void {
+    useEffect(() => {
+        const press = ({ pointerType, target }: PointerEvent): void => {
+            const { current } = popup;
+            if (pointerType === "touch" && current && !current.contains(target as Node)) {
+                onTouch();
+            }
+        };
+        document.addEventListener("pointerdown", press, true);
+        return () => document.removeEventListener("pointerdown", press, true);
+    }, [popup, onTouch]);
+}
+
 export function PointMenu({ at, label, onClose, children }: PointMenuProps) {
+    const popup = useRef<HTMLDivElement>(null);
+    useTouchOutside(popup, onClose);
     const anchor = at && { getBoundingClientRect: () => new DOMRect(at.x, at.y, 0, 0) };
     return (
         <Base.Root open={at !== null} onOpenChange={(open) => open || onClose()} modal={false}>
@@ -53,7 +69,7 @@ export function PointMenu({ at, label, onClose, children }: PointMenuProps) {
                     collisionPadding={8}
                     collisionAvoidance={SHIFT}
                 >
-                    <Base.Popup className="popup menu" aria-label={label}>
+                    <Base.Popup ref={popup} className="popup menu" aria-label={label}>
                         {children}
                     </Base.Popup>
                 </Base.Positioner>
