@@ -323,6 +323,8 @@ test('what is chosen is in sight, what is named has one ring, texts over the pic
 
 test('a palette on a phone tells that its question goes on', async () => {
     const page = await stage.page({ scene, width: 390, height: 844, touch: true });
+    const twist = await page.locator('.tree-twist').first().boundingBox();
+    assert.ok(Math.min(twist.width, twist.height) >= 24, `a finger finds ${JSON.stringify(twist)}`);
     await page.keyboard.press('Control+k');
     await page.getByRole('combobox').waitFor();
     assert.deepEqual(await lookAt(page), []);
