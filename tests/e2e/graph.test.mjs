@@ -164,6 +164,8 @@ describe('the second view of the one tree', () => {
             const [inner, outer] = [await card(node).boundingBox(), await page.locator('.graph-flow').boundingBox()];
             assert.ok(inner.x >= outer.x && inner.x + inner.width <= outer.x + outer.width, 'in sight');
         }
+        await head.getByRole('button', { name: 'Close' }).press('Enter');
+        await page.locator('[data-testid=picture]:focus').waitFor();
     });
 
     test('what is selected elsewhere is unfolded and comes in sight', async () => {

@@ -698,4 +698,7 @@ test('the bar stays where it is while the scene is renamed', async () => {
     const named = await input.boundingBox();
     await input.fill('A table with a longer name');
     assert.ok((await input.boundingBox()).width > named.width + 50, 'it grows with the name');
+    await input.press('Enter');
+    await page.locator('.bar-name .button:focus', { hasText: 'A table with' }).waitFor();
+    assert.equal(await page.getByRole('menu').count(), 0);
 });

@@ -17,6 +17,7 @@ import { keptOf, useRefusal } from "../kept.ts";
 import { useDocument, useEditor } from "../state.ts";
 import { t } from "../texts.ts";
 import { Button, IconButton } from "../widgets/Button.tsx";
+import { useLeftFocus } from "../widgets/leftFocus.ts";
 import { Tip } from "../widgets/Tip.tsx";
 import type { CodeEditor } from "./mount.ts";
 import "./code.css";
@@ -74,6 +75,7 @@ function Panel({ place }: { place: string }) {
     }, [code, problem]);
     return (
         <section
+            ref={useLeftFocus()}
             className="code-panel"
             aria-label={t("code.title")}
             data-testid="code"

@@ -12,6 +12,7 @@ import { NodeMenu } from "../scene/NodeMenu.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { IconButton } from "../widgets/Button.tsx";
+import { useLeftFocus } from "../widgets/leftFocus.ts";
 import { type CardNode, GraphCard } from "./Card.tsx";
 import { GraphContext, useShared } from "./context.ts";
 import { Reach } from "./Reach.tsx";
@@ -36,6 +37,7 @@ export default function GraphPanel() {
     const graph = useGraph();
     return (
         <section
+            ref={useLeftFocus()}
             className="graph-panel"
             aria-label={t("graph.label")}
             data-testid="graph"

@@ -19,7 +19,7 @@ import {
     Undo2,
     Upload,
 } from "lucide-react";
-import { useState } from "react";
+import { useRef, useState } from "react";
 import { redoTitle, undoTitle } from "../../model/history.ts";
 import { setPreferences } from "../../model/stores.ts";
 import type { Theme } from "../../model/view.ts";
@@ -70,6 +70,8 @@ function Name() {
     const scene = useDocument((state) => state.scene);
     const [draft, setDraft] = useState<string | null>(null);
     const cut = useNameCut();
+    /* The key that ends the typing takes the focus back to the button. */
+    const byKey = useRef(false);
     const commit = (): void => {
         if (draft !== null && draft !== (name ?? "")) {
             const ops = [{ op: "set" as const, at: "/name", value: draft === "" ? null : draft }];
@@ -90,7 +92,10 @@ function Name() {
                     onChange={(event) => setDraft(cut(event.target))}
                     onBlur={commit}
                     onKeyDown={(event) => {
+                        byKey.current = event.key === "Enter" || event.key === "Escape";
                         if (event.key === "Enter") {
+                            /* It would press the button. */
+                            event.preventDefault();
                             commit();
                         } else if (event.key === "Escape") {
                             event.stopPropagation();
@@ -101,11 +106,17 @@ function Name() {
             </label>
         );
     }
+    const focusAgain = (button: HTMLButtonElement | null): void => {
+        if (button !== null && byKey.current) {
+            byKey.current = false;
+            button.focus();
+        }
+    };
     return (
         <div className="bar-name">
             <Menu
                 trigger={
-                    <Button>
+                    <Button ref={focusAgain}>
                         <span className="ellipsis">{name ?? scene ?? t("bar.untitled")}</span>
                         <ChevronDown size={14} aria-hidden="true" />
                     </Button>

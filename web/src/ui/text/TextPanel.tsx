@@ -10,6 +10,7 @@ import { selectNode } from "../insertions.ts";
 import { useDocument, useEditor } from "../state.ts";
 import { t } from "../texts.ts";
 import { Button, IconButton } from "../widgets/Button.tsx";
+import { useLeftFocus } from "../widgets/leftFocus.ts";
 import { Tip } from "../widgets/Tip.tsx";
 import { CALM, type DraftState, TextDraft } from "./draft.ts";
 import type { Fault, TextEditor } from "./mount.ts";
@@ -32,6 +33,7 @@ export default function TextPanel() {
     useEffect(() => open?.text.keepCursor(), [open, below, state.others, state.meeting]);
     return (
         <section
+            ref={useLeftFocus()}
             className="code-panel text-panel"
             aria-label={t("text.title")}
             data-testid="text"

@@ -11,10 +11,33 @@ interface MenuProps {
     children: ReactNode;
 }
 
+/* The region of a menu that was opened. It takes the focus when a choice takes the menu and its
+ * button away, unless the choice leads elsewhere. */
+function useRegion() {
+    const button = useRef<HTMLButtonElement>(null);
+    const region = useRef<HTMLElement | null>(null);
+    const onOpenChange = (open: boolean): void => {
+        if (open) {
+            region.current = button.current?.closest<HTMLElement>("[data-region]") ?? null;
+        }
+    };
+    useEffect(
+        () => () =>
+            queueMicrotask(() => {
+                if (document.activeElement === document.body) {
+                    region.current?.focus();
+                }
+            }),
+        [],
+    );
+    return { button, onOpenChange };
+}
+
 export function Menu({ trigger, align = "start", children }: MenuProps) {
+    const { button, onOpenChange } = useRegion();
     return (
-        <Base.Root modal={false}>
-            <Base.Trigger render={trigger} />
+        <Base.Root modal={false} onOpenChange={onOpenChange}>
+            <Base.Trigger ref={button} render={trigger} />
             <Base.Portal>
                 <Base.Positioner className="above-all" align={align} sideOffset={4}>
                     <Base.Popup className="popup menu">{children}</Base.Popup>
