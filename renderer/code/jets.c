@@ -348,7 +348,7 @@ void jet_sheet(double *out, const double *const in[], int n)
              : known > 0.4 * reach                  ? 0
              : steep && reach > around && known < 0 ? around
              : ends                                 ? grain
-                    : fmax(smaller(reach, known + half, told.jumps), grain);
+                    : fmax(smaller(reach, known, told.jumps), grain);
     out[2] = told.clear ? limit : reach;
     out[3] = known;
 }

@@ -215,7 +215,7 @@ vec4 jet_sheet(mat3 a, vec4 at, float thickness)
     bool steep = at.x < 0.001 * thickness * steepest;
     float slow = min(at.x / steepest - 0.5 * thickness, last ? grain : reach - grain);
     float known = max(at.w, apart ? max(slow, reach - 0.5 * thickness) : slow);
-    float less = max(jet_smaller(reach, known + 0.5 * thickness, jumps), grain);
+    float less = max(jet_smaller(reach, known, jumps), grain);
     less = known < 2.0 * grain && reach < 2.0 * thickness ? grain : less;
     less = steep && reach > around && known < 0.0 ? around : less;
     less = known > 0.4 * reach ? 0.0 : less;
