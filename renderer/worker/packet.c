@@ -12,7 +12,7 @@ struct head {
 };
 
 enum {
-    JSON_MAX = 4 * LIMIT_DOCUMENT_BYTES,     /* an edit as large as a document, printed anew */
+    JSON_MAX = 1 << 20,
     PAYLOAD_MAX = LIMIT_IMAGE_BYTES + 65536, /* a picture, in a ZIP */
     READER_KEEPS = 1 << 20,                  /* capacity kept between packets */
 };
@@ -94,6 +94,16 @@ static bool read_packet(const struct head *head, const uint8_t *bytes, enum pack
     return true;
 }
 
+/* Documents and edits go to the worker whole. */
+static bool is_too_long(const struct head *head, enum packet_way way)
+{
+    const bool document = way == PACKET_TO_WORKER && head->kind == TO_WORKER_SCENE;
+    const bool edit = way == PACKET_TO_WORKER && head->kind == TO_WORKER_EDIT;
+
+    return (head->json_length > JSON_MAX && !edit) ||
+           (head->payload_length > PAYLOAD_MAX && !document);
+}
+
 int packet_reader_next(struct packet_reader *reader, enum packet_way way, struct packet *out)
 {
     struct head head;
@@ -103,7 +113,7 @@ int packet_reader_next(struct packet_reader *reader, enum packet_way way, struct
         return 0;
     }
     memcpy(&head, reader->bytes, sizeof head);
-    if (head.json_length > JSON_MAX || head.payload_length > PAYLOAD_MAX) {
+    if (is_too_long(&head, way)) {
         return -1;
     }
     whole = sizeof head + head.json_length + head.payload_length;

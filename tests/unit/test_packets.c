@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -54,6 +55,36 @@ static struct packet there(enum packet_way way, const struct packet *sent)
     free(bytes);
     packet_reader_finish(&whole);
     return out;
+}
+
+/* What the reader says of a packet that is of this length by its head, and goes on later. */
+static int first_seen(enum packet_way way, int kind, size_t at, uint32_t part_length)
+{
+    struct packet_reader reader = {0};
+    struct packet out;
+    size_t length;
+    uint8_t *bytes = packet_pack(way, &(struct packet){.kind = kind}, &length);
+
+    memcpy(bytes + at, &part_length, sizeof part_length);
+    packet_reader_add(&reader, bytes, length);
+    const int seen = packet_reader_next(&reader, way, &out);
+    packet_reader_finish(&reader);
+    free(bytes);
+    return seen;
+}
+
+/* Others would be nonsense. */
+static void documents_and_edits_have_any_length(void **state)
+{
+    enum { JSON_AT = 4, PAYLOAD_AT = 8 };
+
+    (void)state;
+    assert_int_equal(first_seen(PACKET_TO_WORKER, TO_WORKER_SCENE, PAYLOAD_AT, UINT32_MAX), 0);
+    assert_int_equal(first_seen(PACKET_TO_WORKER, TO_WORKER_EDIT, JSON_AT, UINT32_MAX), 0);
+    assert_int_equal(first_seen(PACKET_TO_WORKER, TO_WORKER_ASSET, PAYLOAD_AT, UINT32_MAX), -1);
+    assert_int_equal(first_seen(PACKET_TO_WORKER, TO_WORKER_STOP, JSON_AT, UINT32_MAX), -1);
+    assert_int_equal(first_seen(PACKET_TO_FRONT, TO_FRONT_FRAME, PAYLOAD_AT, UINT32_MAX), -1);
+    assert_int_equal(first_seen(PACKET_TO_FRONT, TO_FRONT_FRAME, JSON_AT, UINT32_MAX), -1);
 }
 
 static void members_to_worker(void **state)
@@ -136,6 +167,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(packets_come_whole_out_of_pieces),
+        cmocka_unit_test(documents_and_edits_have_any_length),
         cmocka_unit_test(members_to_worker),
         cmocka_unit_test(members_to_front),
     };
