@@ -22,8 +22,9 @@ bool edit_apply(struct scene *scene, const cJSON *ops, cJSON **out_applied, cJSO
 bool edit_apply_some(struct scene *scene, const cJSON *ops, cJSON **out_applied,
                      cJSON **out_inverse, struct error *err);
 
-/* An estimate of the work of applying `ops`: operations, JSON values that they bring, and nodes
- * that they remove, move, change or look at. Counts little further than `most`. */
+/* An estimate of the work of applying `ops`: operations, JSON values that they bring, long texts
+ * among them for several, and nodes that they remove, move, change or look at. Counts little
+ * further than `most`. */
 size_t edit_weight(const struct scene *scene, const cJSON *ops, size_t most);
 
 /* Undo and redo of one scene, a pair of stacks of steps per author. A redo is built when its undo
@@ -57,6 +58,8 @@ void history_forget(struct history *history, const char *author);
 void history_record(struct history *history, const struct history_entry *entry);
 /* What is long about recording an edit, without the history; takes the inverse. */
 struct step *history_prepare(const struct history_entry *entry);
+/* One of an edit that is not recorded after all; NULL is fine. */
+void history_discard(struct step *step);
 
 /* What an undo or redo did. */
 struct history_move {
@@ -65,7 +68,9 @@ struct history_move {
     const cJSON *inverse; /* the history's, until its next change */
     const char *label;    /* the same */
     size_t undo, redo;    /* as in struct history_entry */
-    struct step *step;    /* between history_take and history_put */
+    struct step *step;    /* between history_take and history_put: the one that was taken; NULL
+                           * once it is discarded, which takes long, and cannot be returned */
+    struct step *back;    /* between history_apply and history_put: what takes that back */
 };
 void history_move_finish(struct history_move *move);
 /* Applies the newest step of the author to the scene and moves it to the other stack. False with
@@ -77,11 +82,15 @@ bool history_redo(struct history *history, struct scene *scene, const char *auth
                   struct history_move *out, struct error *err);
 /* The same in three calls: the step is taken from its stack, applied, which may take long and needs
  * no history, and what takes it back is put on the other stack, unless nothing was applied. Nothing
- * else may happen to the document and the author's steps meanwhile. */
+ * else may happen to the document and the author's steps meanwhile. If the applied scene is thrown
+ * away instead, history_return leaves the author's steps as they were before; it does nothing where
+ * nothing was taken or applied. */
 bool history_take(struct history *history, const char *author, bool redo, struct history_move *out,
                   struct error *err);
 bool history_apply(struct history_move *move, struct scene *scene, struct error *err);
 void history_put(struct history *history, const char *author, bool redo, struct history_move *move);
+void history_return(struct history *history, const char *author, bool redo,
+                    struct history_move *move);
 /* Operations of the step that would be next; NULL: there is none. */
 const cJSON *history_next(const struct history *history, const char *author, bool redo);
 void history_depth(const struct history *history, const char *author, size_t *out_undo,

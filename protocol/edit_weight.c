@@ -4,6 +4,8 @@
 
 #include "edit_internal.h"
 
+enum { TEXT_BYTES = 256 }; /* of a text that are as much work as a value */
+
 struct weight {
     const struct scene *scene;
     size_t sum, most;
@@ -26,7 +28,7 @@ static bool weigh_value(struct weight *weight, const cJSON *value)
 {
     bool instance = is_instance(value);
 
-    weight->sum++;
+    weight->sum += 1 + (cJSON_IsString(value) ? strlen(value->valuestring) / TEXT_BYTES : 0);
     for (const cJSON *part = value->child; part && weight->sum <= weight->most; part = part->next) {
         instance = weigh_value(weight, part) || instance;
     }

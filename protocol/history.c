@@ -147,6 +147,13 @@ struct step *history_prepare(const struct history_entry *entry)
     return step_create(entry->group, entry->label, entry->applied, entry->inverse);
 }
 
+void history_discard(struct step *step)
+{
+    if (step) {
+        step_destroy(step);
+    }
+}
+
 static void record_edit(struct author *author, const struct history_entry *entry)
 {
     struct step *step = entry->step ? entry->step : history_prepare(entry);
@@ -228,18 +235,36 @@ bool history_apply(struct history_move *move, struct scene *scene, struct error 
     const bool ok = step->count > 0
                         ? edit_apply_some(scene, step->ops, &move->applied, &inverse, err)
                         : fail_overwritten(move->skipped, err);
-    move->step = ok ? step_create(NULL, step->label, move->applied, inverse) : NULL;
-    move->label = ok ? move->step->label : NULL;
     move->inverse = inverse;
-    step_destroy(step);
+    if (ok) {
+        move->back = step_create(NULL, step->label, move->applied, inverse);
+        move->label = move->back->label;
+    } else {
+        step_destroy(step);
+        move->step = NULL;
+    }
     return ok;
 }
 
 void history_put(struct history *history, const char *author_name, bool redo,
                  struct history_move *move)
 {
-    push(stack_of(hear_of(history, author_name), !redo), move->step);
-    move->step = NULL;
+    push(stack_of(hear_of(history, author_name), !redo), move->back);
+    history_discard(move->step);
+    move->step = move->back = NULL;
+}
+
+void history_return(struct history *history, const char *author_name, bool redo,
+                    struct history_move *move)
+{
+    if (!move->step) {
+        return;
+    }
+    step_give_back(move->step, move->skipped);
+    push(stack_of(hear_of(history, author_name), redo), move->step);
+    step_destroy(move->back);
+    cJSON_Delete(move->applied);
+    *move = (struct history_move){0};
 }
 
 void history_move_finish(struct history_move *move)

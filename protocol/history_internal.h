@@ -25,5 +25,7 @@ bool step_join(struct step *step, struct step *newer);
  * the step's edits left there, and gives them as an array; NULL where there is none. The scene
  * stays as it is. */
 cJSON *step_take_overwritten(struct step *step, struct scene *scene);
+/* Puts them in again. Takes `taken`, which may be NULL. */
+void step_give_back(struct step *step, cJSON *taken);
 
 #endif

@@ -232,3 +232,12 @@ cJSON *step_take_overwritten(struct step *step, struct scene *scene)
     }
     return taken;
 }
+
+void step_give_back(struct step *step, cJSON *taken)
+{
+    while (taken && taken->child) {
+        cJSON_AddItemToArray(step->ops, cJSON_DetachItemViaPointer(taken, taken->child));
+        step->count++;
+    }
+    cJSON_Delete(taken);
+}

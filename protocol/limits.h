@@ -9,6 +9,7 @@
 /* X(NAME, "name", value, "unit", "what it bounds") */
 #define LIMITS(X)                                                                                  \
     X(DOCUMENT_BYTES, "document_bytes", 16777216, "bytes", "a scene document")                     \
+    X(SCENE_BYTES, "scene_bytes", 67108864, "bytes", "a scene that edits have grown, as JSON")     \
     X(MESSAGE_BYTES, "message_bytes", 1048576, "bytes", "a WebSocket message from a client")       \
     X(JSON_DEPTH, "json_depth", 160, "levels", "nesting of JSON")                                  \
     X(JSON_KEYS, "json_keys", 4096, "keys", "members of one JSON object")                          \

@@ -186,8 +186,9 @@ struct room *hub_lock_new_room(struct hub *hub, const char *id, struct scene *sc
         error_set(err, ERROR_INVALID, "?id", "an id is 1 to %d of a-z, 0-9 and -", LIMIT_ID_BYTES);
     } else if (catalog_find(hub->catalog, name)) {
         error_set(err, ERROR_CONFLICT, "?id", "there is a scene %s already", name);
-    } else {
+    } else if (room_check_bytes(strlen(text), err)) {
         snprintf(room->id, sizeof room->id, "%s", name);
+        room->bytes = strlen(text);
         add_room(hub, room);
         room_store_new(room, text, then, data);
         metric_set(&hub->metrics, METRIC_SCENES, (int64_t)hub->catalog->count);

@@ -138,7 +138,9 @@ struct room *room_load(struct hub *hub, const char *id, const struct store_loade
     }
     struct room *room = room_create(hub, id, scene, loaded->revision);
     bool ok = true;
+    room->bytes = strlen(loaded->document);
     for (size_t i = 0; i < loaded->edit_count && ok; i++) {
+        room->bytes += strlen(loaded->edits[i].ops);
         ok = replay(room, &loaded->edits[i], err);
     }
     if (!ok) {
@@ -267,6 +269,8 @@ static bool move_step(struct room *room, const struct room_change *change, bool 
 
     if (ok) {
         history_put(room->history, change->author, redo, move);
+    } else {
+        history_return(room->history, change->author, redo, move);
     }
     return ok;
 }
@@ -319,6 +323,7 @@ struct scene *room_replace(struct room *room, const struct room_document *docume
     struct scene *before = last_good_before_replace(room, document->has_code) ? NULL : room->scene;
 
     room->scene = document->scene;
+    room->bytes = strlen(document->text);
     history_destroy(room->history);
     room->history = history_create();
     room->revision++;

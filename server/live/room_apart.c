@@ -26,7 +26,8 @@ bool room_is_heavy(const struct room *room)
 
 bool room_edit_is_heavy(const struct room *room, const cJSON *ops)
 {
-    return edit_weight(room->scene, ops, ROOM_LIGHT_WEIGHT) > ROOM_LIGHT_WEIGHT;
+    return ops && (room->bytes + ROOM_LIGHT_BYTES > LIMIT_SCENE_BYTES ||
+                   edit_weight(room->scene, ops, ROOM_LIGHT_WEIGHT) > ROOM_LIGHT_WEIGHT);
 }
 
 /* --- copies --- */
@@ -128,6 +129,29 @@ struct shared_buffer *room_text(struct room *room)
     return text;
 }
 
+/* --- length --- */
+
+bool room_check_bytes(size_t bytes, struct error *err)
+{
+    return bytes <= LIMIT_SCENE_BYTES ||
+           error_set(err, ERROR_LIMIT, "",
+                     "%zu bytes of the scene are above the maximum %d (scene_bytes)", bytes,
+                     LIMIT_SCENE_BYTES);
+}
+
+/* Counts a document that may be too long. One that has been too long may grow no more. */
+static bool check_length(const struct scene *scene, struct room_work *work, struct error *err)
+{
+    if (work->bytes <= LIMIT_SCENE_BYTES) {
+        return true;
+    }
+    char *text = scene_print(scene, false);
+    work->bytes = strlen(text);
+    free(text);
+    return strlen(work->applied_text) <= strlen(work->inverse_text) ||
+           room_check_bytes(work->bytes, err);
+}
+
 /* --- edits --- */
 
 static bool apply_operations(struct scene *scene, const struct room_order *order,
@@ -158,16 +182,26 @@ static bool apply_step(struct scene *scene, struct history_move *move, struct ro
     return true;
 }
 
-static bool apply(struct scene *scene, const struct room_order *order, struct room_work *out,
-                  struct error *err)
+static bool apply(const struct room *room, struct scene *scene, const struct room_order *order,
+                  struct room_work *out, struct error *err)
 {
     const bool ok = order->move ? apply_step(scene, order->move, out, err)
                                 : apply_operations(scene, order, out, err);
 
     if (ok) {
         out->applied_text = json_print(out->applied, false);
+        out->bytes = room->bytes + strlen(out->applied_text);
     }
     return ok;
+}
+
+static void drop(struct room_work *work)
+{
+    history_discard(work->step);
+    cJSON_Delete(work->applied);
+    free(work->applied_text);
+    free(work->inverse_text);
+    *work = (struct room_work){0};
 }
 
 static bool apply_to_copy(struct room *room, const struct room_order *order, struct room_work *out,
@@ -176,9 +210,16 @@ static bool apply_to_copy(struct room *room, const struct room_order *order, str
     room_hold(room);
     hub_unlock(room->hub);
     struct scene *copy = scene_copy(room->scene);
-    const bool ok = apply(copy, order, out, err);
+    bool ok = apply(room, copy, order, out, err);
+    if (ok && !check_length(copy, out, err)) {
+        drop(out);
+        ok = false;
+    }
     if (!ok) {
         scene_destroy(copy);
+    } else if (order->move) {
+        history_discard(order->move->step); /* while the lock is free */
+        order->move->step = NULL;
     }
     hub_lock(room->hub);
     release_to_edit(room);
@@ -192,10 +233,11 @@ static bool apply_to_copy(struct room *room, const struct room_order *order, str
 bool room_apply(struct room *room, const struct room_order *order, struct room_work *out,
                 struct error *err)
 {
-    const bool ok =
-        order->heavy ? apply_to_copy(room, order, out, err) : apply(room->scene, order, out, err);
+    const bool ok = order->heavy ? apply_to_copy(room, order, out, err)
+                                 : apply(room, room->scene, order, out, err);
 
     if (ok) {
+        room->bytes = out->bytes;
         room_forget_text(room);
     }
     return ok;

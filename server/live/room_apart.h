@@ -8,7 +8,8 @@
 #include "room_state.h"
 
 enum {
-    ROOM_LIGHT_WEIGHT = 512 /* edit_weight of an edit or step; a heavier one is applied to a copy */
+    ROOM_LIGHT_WEIGHT = 512,   /* edit_weight of an edit or step; heavier ones work on a copy */
+    ROOM_LIGHT_BYTES = 1 << 20 /* others add less to the document, whatever has to be escaped */
 };
 
 /* The work: operations, or a step of undo or redo taken from the history. */
@@ -16,7 +17,7 @@ struct room_order {
     const struct room_change *change;
     const cJSON *ops;
     struct history_move *move; /* NULL: the operations */
-    bool heavy;                /* room_edit_is_heavy of either */
+    bool heavy;                /* room_edit_is_heavy of either; only that may be refused space */
 };
 
 /* The results of an edit. */
@@ -24,12 +25,14 @@ struct room_work {
     cJSON *applied;
     struct step *step; /* of operations */
     char *applied_text, *inverse_text;
+    size_t bytes;         /* of the document then, at most */
     struct scene *before; /* replaced by the copy; NULL: there was no copy */
 };
 
 /* Whether printing or copying the document takes long. */
 bool room_is_heavy(const struct room *room);
-/* Whether applying the operations takes long; NULL: no. */
+/* Whether applying the operations takes long: they are many, or the document may have to be printed
+ * to know how long it becomes. NULL: no. */
 bool room_edit_is_heavy(const struct room *room, const cJSON *ops);
 /* Between room_hold and room_release the room stays and the document does not change, also while
  * the lock is free. */
@@ -46,7 +49,10 @@ struct scene *room_copy(struct room *room);
 struct scene *room_copy_to_edit(struct room *room);
 /* Destroys a scene that was the room's; one of many nodes on a thread of tasks. */
 void room_drop_scene(struct hub *hub, struct scene *scene);
-/* Applies the order. Nobody may hold the room. Releases the lock for a heavy order. */
+/* False and `err` where a document of so many bytes is longer than a scene may be. */
+bool room_check_bytes(size_t bytes, struct error *err);
+/* Applies the order, unless the document would be too long. Nobody may hold the room. Releases the
+ * lock for a heavy order. */
 bool room_apply(struct room *room, const struct room_order *order, struct room_work *out,
                 struct error *err);
 /* Frees the results that nobody has taken. Releases the lock if that takes long. */

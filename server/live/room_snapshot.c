@@ -15,6 +15,7 @@ void room_snapshot(struct room *room)
     char *text =
         room->text ? memory_text((const char *)room->text->bytes) : scene_print(room->scene, false);
 
+    room->bytes = strlen(text);
     room->edits_since_snapshot = 0;
     room_store_push(room, STORE_SNAPSHOT, &(struct room_change){.author = ""}, text, NULL);
     room_authors_cut(room);

@@ -67,6 +67,7 @@ struct room {
     struct scene *scene;
     struct history *history;
     uint64_t revision, durable;
+    size_t bytes;                    /* of the document, printed: at most */
     char epoch[17];                  /* new with each load: revisions may repeat after a crash */
     struct room_entry log[ROOM_LOG]; /* ring: entry of revision r at r % ROOM_LOG */
     uint64_t log_from;               /* the log holds every revision above this one */

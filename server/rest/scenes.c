@@ -400,7 +400,7 @@ void scenes_replace(struct request *request)
         create(request, id, scene, NULL, NULL);
         return;
     }
-    if (!room || !check_match(request, room, &err)) {
+    if (!room || !check_match(request, room, &err) || !room_check_bytes(strlen(text), &err)) {
         if (room) {
             hub_unlock(hub);
         }

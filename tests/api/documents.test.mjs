@@ -296,3 +296,41 @@ test('a new render process gets the document of a picture without that it is rea
         await own.stop();
     }
 });
+
+/** The answer to the first of several edits of almost 16 MiB each that is refused. */
+async function fill(id) {
+    const value = { type: 'implicit', params: { equation: `x = ${'0'.repeat(16_000)}1` } };
+    const ops = Array.from({ length: 1000 }, () => ({ op: 'insert', into: '/nodes/hidden', value }));
+    for (let i = 0; i < 6; i += 1) {
+        const answer = await fetch(`${daemon.url}/v1/scenes/${id}`, {
+            method: 'PATCH',
+            headers: { 'content-type': 'application/json' },
+            body: JSON.stringify(ops),
+        });
+        if (!answer.ok) {
+            return { status: answer.status, ...(await answer.json()) };
+        }
+    }
+    return {};
+}
+
+test('a scene that is full is drawn, also when an undo has brought it back', async () => {
+    const restarts = await counter(daemon, 'worker_restarts_total');
+    const hidden = { id: 'hidden', type: 'union', visible: false };
+    const root = { id: 'root', type: 'union', children: [{ id: 'ball', type: 'sphere' }, hidden] };
+    await ask(daemon, 'POST', '/v1/scenes?id=full', { format: 'fieldcast/1', root });
+    const draw = async () => (await fetch(`${daemon.url}/v1/scenes/full/image.png?width=16&height=16`)).status;
+    assert.equal(await draw(), 200);
+    const { status, code, place, detail } = await fill('full');
+    assert.deepEqual([status, code, place], [422, 'limit', '']);
+    assert.match(detail, / bytes of the scene are above the maximum 67108864 \(scene_bytes\)$/);
+    assert.equal(await draw(), 200);
+    const live = await Live.open(daemon, 'full');
+    await live.next('applied', { edit: live.change([{ op: 'remove', at: '/nodes/hidden' }]) });
+    assert.equal(await draw(), 200);
+    live.say({ type: 'undo', edit: (live.edit += 1) });
+    await live.next('applied', { edit: live.edit });
+    assert.equal(await draw(), 200);
+    assert.equal(await counter(daemon, 'worker_restarts_total'), restarts);
+    await live.close();
+});

@@ -305,6 +305,16 @@ static void weight_of_one_operation(void **state)
                      2 + scene->node_count);
 }
 
+/* Long texts take as long as many values. */
+static void weight_counts_texts_by_their_length(void **state)
+{
+    char ops[2000];
+
+    (void)state;
+    snprintf(ops, sizeof ops, "[{'op':'set','at':'/name','value':'%01000d'}]", 0);
+    assert_in_range(weight_of(ops, 99), 2 + 3, 2 + 4);
+}
+
 /* What is removed together with a new group was moved there. */
 static void weight_counts_what_is_moved(void **state)
 {
@@ -384,6 +394,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(depth_holds_in_edits, set_up, tear_down),
         cmocka_unit_test_setup_teardown(counts_hold_in_edits, set_up, tear_down),
         cmocka_unit_test_setup_teardown(weight_of_one_operation, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(weight_counts_texts_by_their_length, set_up, tear_down),
         cmocka_unit_test_setup_teardown(weight_counts_what_is_moved, set_up, tear_down),
         cmocka_unit_test_setup_teardown(weight_counts_instances_in_models, set_up, tear_down),
         cmocka_unit_test_setup_teardown(weight_stops_at_most, set_up, tear_down),

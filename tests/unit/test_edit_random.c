@@ -128,12 +128,26 @@ struct edited {
     char *text;
 };
 
+/* The server counts on it, where it does not print a scene to know how long it is. */
+static void assert_grown_by_no_more(const char *before, const char *after, const cJSON *applied)
+{
+    char *text = json_print(applied, false);
+
+    if (strlen(after) > strlen(before) + strlen(text)) {
+        fail_msg("%zu and %zu bytes make %zu: %s", strlen(before), strlen(text), strlen(after),
+                 text);
+    }
+    free(text);
+}
+
 /* Of the copy of before: the canonical form does what the edit did, the inverse takes it back. */
 static void follow(struct edited *edited, struct scene *copy, const cJSON *ops,
                    const cJSON *applied, const cJSON *inverse)
 {
     char *after = scene_print(edited->wild, false);
 
+    assert_grown_by_no_more(edited->text, after, applied);
+    assert_grown_by_no_more(after, edited->text, inverse);
     assert_true(edit_apply(copy, applied, NULL, NULL, &err));
     char *again = scene_print(copy, false);
     assert_same(after, again, ops);

@@ -208,6 +208,30 @@ static void the_rest_of_such_a_step_is_undone(void **state)
     assert_float_equal(radius_of("head"), 0.3, 0);
 }
 
+/* With what was left out, as if nothing had been tried. */
+static void a_step_that_is_returned_is_undone_later(void **state)
+{
+    (void)state;
+    struct history_move move;
+    struct scene *copy;
+
+    set_radius("bert", "g", "body", 0.4);
+    set_radius("bert", "g", "head", 0.3);
+    set_radius("anna", "", "body", 0.7);
+    copy = scene_copy(scene);
+    assert_true(history_take(history, "bert", false, &move, &err));
+    assert_true(history_apply(&move, copy, &err));
+    assert_int_equal(cJSON_GetArraySize(move.skipped), 1);
+    history_return(history, "bert", false, &move);
+    assert_null(move.skipped);
+    scene_destroy(copy);
+    assert_depth("bert", 1, 0);
+    assert_true(undo("anna"));
+    assert_true(undo("bert"));
+    assert_float_equal(radius_of("body"), 0.5, 0);
+    assert_float_equal(radius_of("head"), 0.5, 0);
+}
+
 static void a_value_that_was_put_back_is_no_conflict(void **state)
 {
     (void)state;
@@ -557,6 +581,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_others_removed_is_skipped, set_up, tear_down),
         cmocka_unit_test_setup_teardown(newer_values_of_others_are_left_alone, set_up, tear_down),
         cmocka_unit_test_setup_teardown(the_rest_of_such_a_step_is_undone, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_step_that_is_returned_is_undone_later, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_value_that_was_put_back_is_no_conflict, set_up,
                                         tear_down),
         cmocka_unit_test_setup_teardown(groups_with_more_than_values_keep_all, set_up, tear_down),

@@ -414,17 +414,25 @@ static char *long_edit(size_t bytes)
     return text;
 }
 
-static void edit_scene(struct room *room, const char *text)
+static enum room_outcome try_edit(struct room *room, const char *author, const char *text,
+                                  struct error *err)
 {
-    const struct room_change change = {.author = "rest"};
-    struct error err = {0};
-    cJSON *ops = json_text_parse(text, &err);
+    const struct room_change change = {.author = author};
+    cJSON *ops = json_text_parse(text, err);
     uint64_t revision = 0;
 
     hub_lock(room->hub);
-    assert_int_equal(room_edit(room, &change, ops, &revision, &err), ROOM_APPLIED);
+    const enum room_outcome outcome = room_edit(room, &change, ops, &revision, err);
     hub_unlock(room->hub);
     cJSON_Delete(ops);
+    return outcome;
+}
+
+static void edit_scene(struct room *room, const char *text)
+{
+    struct error err = {0};
+
+    assert_int_equal(try_edit(room, "rest", text, &err), ROOM_APPLIED);
 }
 
 static struct session *come_back(struct hub *hub, const struct room *room, uint64_t revision)
@@ -505,7 +513,7 @@ static void a_long_document_and_notices_are_an_answer_to_hello(void **state)
 
 /* As many equations as one client may send at once. With the ids that they get, the edit is longer
  * than that. */
-static char *insert_equations(size_t *out_count)
+static char *insert_equations(const char *into, size_t *out_count)
 {
     enum { ITEM = LIMIT_EQUATION_BYTES + 93 };
     char *text = NULL;
@@ -515,14 +523,136 @@ static char *insert_equations(size_t *out_count)
     *out_count = 0;
     for (; ftell(out) + ITEM + 2 < LIMIT_DOCUMENT_BYTES; ++*out_count) {
         fprintf(out,
-                "%c{'op':'insert','into':'/nodes/all','before':null,'value':{'type':'implicit',"
+                "%c{'op':'insert','into':'/nodes/%s','before':null,'value':{'type':'implicit',"
                 "'params':{'equation':'x = %0*zu'}}}",
-                *out_count ? ',' : '[', LIMIT_EQUATION_BYTES - 4, *out_count);
+                *out_count ? ',' : '[', into, LIMIT_EQUATION_BYTES - 4, *out_count);
     }
     fputc(']', out);
     fclose(out);
     assert_true(length + 16 * *out_count > LIMIT_DOCUMENT_BYTES);
     return text;
+}
+
+/* The scene is as it was. */
+static void assert_no_space(const struct room *room, uint64_t revision, enum room_outcome outcome,
+                            const struct error *err)
+{
+    assert_int_equal(outcome, ROOM_REFUSED);
+    assert_int_equal(err->kind, ERROR_LIMIT);
+    assert_non_null(
+        strstr(err->message, " bytes of the scene are above the maximum 67108864 (scene_bytes)"));
+    assert_int_equal(room->revision, revision);
+}
+
+static void assert_no_space_for(struct room *room, const char *text)
+{
+    struct error err = {0};
+    const uint64_t revision = room->revision;
+
+    assert_no_space(room, revision, try_edit(room, "rest", text, &err), &err);
+}
+
+static enum room_outcome take_back(struct room *room, const char *author, bool redo,
+                                   struct error *err)
+{
+    const struct room_change change = {.author = author};
+    cJSON *skipped;
+    uint64_t revision = 0;
+
+    hub_lock(room->hub);
+    const enum room_outcome outcome = room_undo(room, &change, redo, &revision, &skipped, err);
+    hub_unlock(room->hub);
+    assert_null(skipped);
+    return outcome;
+}
+
+/* Whole edits of almost 16 MiB. */
+static void fill(struct room *room, const char *into, int times)
+{
+    size_t count;
+    char *edit = insert_equations(into, &count);
+
+    for (int i = 0; i < times; i++) {
+        edit_scene(room, edit);
+    }
+    free(edit);
+}
+
+/* As a server that did not know the limit would. */
+static void fill_above_the_limit(struct room *room)
+{
+    struct error err = {0};
+    size_t count;
+    char *edit = insert_equations("all", &count);
+    cJSON *ops = json_text_parse(edit, &err);
+
+    hub_lock(room->hub);
+    assert_true(edit_apply(room->scene, ops, NULL, NULL, &err));
+    room->bytes += strlen(edit);
+    hub_unlock(room->hub);
+    cJSON_Delete(ops);
+    free(edit);
+}
+
+enum { FILLS = 4 }; /* whole edits that a scene has space for */
+
+#define EMPTY                                                                                      \
+    "{'format':'fieldcast/1','root':{'id':'top','type':'union','children':["                       \
+    "{'id':'all','type':'union'}]}}"
+
+static void edits_do_not_grow_a_scene_without_end(void **state)
+{
+    struct hub *hub = silent_hub_open();
+    struct room *room = make_scene(hub, "full", EMPTY);
+    size_t count;
+    char *edit = insert_equations("all", &count);
+
+    (void)state;
+    fill(room, "all", FILLS);
+    assert_no_space_for(room, edit);
+    assert_int_equal(room->scene->node_count, 2 + FILLS * count);
+    edit_scene(room, "[{'op':'set','at':'/name','value':'Full'}]");
+    fill_above_the_limit(room);
+    assert_no_space_for(room, "[{'op':'set','at':'/name','value':'Too full'}]");
+    edit_scene(room, "[{'op':'set','at':'/name','value':'Fuel'}]");
+    silent_hub_close(hub);
+
+    hub = silent_hub_open();
+    room = hub_lock_room(hub, "full", NULL);
+    assert_non_null(room);
+    hub_unlock(hub);
+    assert_int_equal(room->scene->node_count, 2 + (FILLS + 1) * count);
+    assert_no_space_for(room, edit);
+    edit_scene(room, "[{'op':'remove','at':'/nodes/all'}]");
+    edit_scene(room, "[{'op':'insert','into':'/nodes/top','value':{'id':'all','type':'union'}}]");
+    edit_scene(room, edit);
+    free(edit);
+    silent_hub_close(hub);
+}
+
+static void an_undo_without_space_stays(void **state)
+{
+    struct hub *hub = silent_hub_open();
+    struct room *room = make_scene(hub, "undo", EMPTY);
+    struct error err = {0};
+
+    (void)state;
+    fill(room, "all", FILLS - 1);
+    const size_t nodes = room->scene->node_count;
+    assert_int_equal(try_edit(room, "anna", "[{'op':'remove','at':'/nodes/all'}]", &err),
+                     ROOM_APPLIED);
+    fill(room, "top", 2);
+    const uint64_t revision = room->revision;
+    assert_no_space(room, revision, take_back(room, "anna", false, &err), &err);
+    assert_int_equal(take_back(room, "rest", false, &err), ROOM_APPLIED);
+    assert_int_equal(take_back(room, "rest", false, &err), ROOM_APPLIED);
+    assert_int_equal(take_back(room, "anna", false, &err), ROOM_APPLIED);
+    assert_int_equal(room->scene->node_count, nodes);
+    assert_int_equal(take_back(room, "rest", true, &err), ROOM_APPLIED);
+    assert_no_space(room, revision + 4, take_back(room, "rest", true, &err), &err);
+    assert_int_equal(take_back(room, "anna", true, &err), ROOM_APPLIED);
+    assert_int_equal(take_back(room, "rest", true, &err), ROOM_APPLIED);
+    silent_hub_close(hub);
 }
 
 static void assert_read(const char *id, uint64_t revision, size_t nodes)
@@ -546,7 +676,7 @@ static void what_grew_by_edits_is_read_again(void **state)
     struct room *room =
         make_scene(hub, "grows", "{'format':'fieldcast/1','root':{'id':'all','type':'union'}}");
     size_t count;
-    char *edit = insert_equations(&count);
+    char *edit = insert_equations("all", &count);
 
     (void)state;
     edit_scene(room, edit);
@@ -566,6 +696,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(who_missed_much_gets_the_document),
         cmocka_unit_test(a_long_document_and_notices_are_an_answer_to_hello),
         cmocka_unit_test(what_grew_by_edits_is_read_again),
+        cmocka_unit_test(edits_do_not_grow_a_scene_without_end),
+        cmocka_unit_test(an_undo_without_space_stays),
     };
 
     if (silent_hub_was_worker(argc, argv)) {
