@@ -7,6 +7,8 @@
 #include "limits.h"
 #include "memory.h"
 
+enum { FULL_AUTHORS = 4 }; /* have room in a scene with all that one may keep */
+
 struct stack {
     struct step **items;
     size_t count;
@@ -15,6 +17,7 @@ struct stack {
 struct author {
     char *name;
     struct stack undo, redo;
+    size_t bytes;        /* of both */
     struct author *next; /* the one heard of before this one */
 };
 
@@ -24,17 +27,32 @@ struct history {
 
 /* --- stacks --- */
 
+static void drop_oldest(struct stack *stack)
+{
+    step_destroy(stack->items[0]);
+    stack->count--;
+    memmove(stack->items, stack->items + 1, stack->count * sizeof *stack->items);
+}
+
 static void push(struct stack *stack, struct step *step)
 {
     if (!stack->items) {
         stack->items = memory_alloc(LIMIT_UNDO_GROUPS, sizeof *stack->items);
     }
     if (stack->count == LIMIT_UNDO_GROUPS) {
-        step_destroy(stack->items[0]);
-        stack->count--;
-        memmove(stack->items, stack->items + 1, stack->count * sizeof *stack->items);
+        drop_oldest(stack);
     }
     stack->items[stack->count++] = step;
+}
+
+static size_t bytes_in(const struct stack *stack)
+{
+    size_t bytes = 0;
+
+    for (size_t i = 0; i < stack->count; i++) {
+        bytes += stack->items[i]->bytes;
+    }
+    return bytes;
 }
 
 static void clear(struct stack *stack)
@@ -81,12 +99,17 @@ static struct author **link_of(struct history *history, const char *name)
     return link;
 }
 
-/* Forgets those who were not heard of for longest. */
+/* Forgets those who were not heard of for longest: beyond their number, and the memory of all. */
 static void forget_oldest(struct history *history)
 {
     struct author **link = &history->newest;
+    size_t bytes = 0;
 
     for (int kept = 0; *link && kept < LIMIT_SESSIONS; kept++) {
+        bytes += (*link)->bytes;
+        if (kept > 0 && bytes > (size_t)FULL_AUTHORS * LIMIT_UNDO_BYTES) {
+            break;
+        }
         link = &(*link)->next;
     }
     while (*link) {
@@ -112,6 +135,21 @@ static struct author *hear_of(struct history *history, const char *name)
     history->newest = author;
     forget_oldest(history);
     return author;
+}
+
+/* Of an author whose steps are others now: drops the oldest beyond the memory that they may have,
+ * but not the newest, which is the last to redo or to undo. */
+static void weigh(struct author *author, bool redo)
+{
+    const size_t undo_left = redo ? 0 : 1;
+
+    for (;;) {
+        author->bytes = bytes_in(&author->undo) + bytes_in(&author->redo);
+        if (author->bytes <= LIMIT_UNDO_BYTES || author->undo.count + author->redo.count <= 1) {
+            return;
+        }
+        drop_oldest(author->undo.count > undo_left ? &author->undo : &author->redo);
+    }
 }
 
 /* --- public --- */
@@ -198,6 +236,7 @@ void history_record(struct history *history, const struct history_entry *entry)
         record_move(&author->redo, &author->undo, entry);
         break;
     }
+    weigh(author, entry->kind == HISTORY_UNDO);
 }
 
 /* Tells of the first of the values that somebody else has set since. */
@@ -249,9 +288,12 @@ bool history_apply(struct history_move *move, struct scene *scene, struct error 
 void history_put(struct history *history, const char *author_name, bool redo,
                  struct history_move *move)
 {
-    push(stack_of(hear_of(history, author_name), !redo), move->back);
+    struct author *author = hear_of(history, author_name);
+
+    push(stack_of(author, !redo), move->back);
     history_discard(move->step);
     move->step = move->back = NULL;
+    weigh(author, !redo);
 }
 
 void history_return(struct history *history, const char *author_name, bool redo,

@@ -10,6 +10,7 @@ struct step {
     char *group, *label;
     cJSON *ops;
     size_t count;
+    size_t bytes;  /* of the operations and values, about */
     bool values;   /* nothing but values are set: places may be joined */
     void *places;  /* search tree: the value that was set last at each place (struct place_value) */
     void *records; /* search tree of texts: the records that these places are in */

@@ -49,6 +49,18 @@ static struct place_value *find_place(const struct step *step, const char *at)
     return found ? *(struct place_value **)found : NULL;
 }
 
+/* Of memory, about. */
+static size_t bytes_of(const cJSON *value)
+{
+    size_t bytes = 0;
+
+    for (; value; value = value->next) {
+        bytes += sizeof *value + (value->string ? strlen(value->string) : 0) +
+                 (value->valuestring ? strlen(value->valuestring) : 0) + bytes_of(value->child);
+    }
+    return bytes;
+}
+
 static int compare_texts(const void *a, const void *b)
 {
     return strcmp(a, b);
@@ -81,6 +93,8 @@ static void remember_place(struct step *step, const char *at, cJSON *value)
         tsearch(place, &step->places, compare_places);
         remember_record(step, at);
     }
+    step->bytes += bytes_of(value);
+    step->bytes -= bytes_of(place->value);
     cJSON_Delete(place->value);
     place->value = value;
 }
@@ -111,6 +125,7 @@ struct step *step_create(const char *group, const char *label, const cJSON *appl
     step->group = memory_text(group ? group : "");
     step->label = memory_text(label ? label : "");
     step->ops = inverse;
+    step->bytes = bytes_of(inverse);
     step->values = true;
     for (const cJSON *op = inverse->child; op; op = op->next) {
         step->values = step->values && sets_value(op);
@@ -169,6 +184,7 @@ bool step_join(struct step *step, struct step *newer)
         drop_places(newer, step);
     }
     step->count += newer->count;
+    step->bytes += bytes_of(newer->ops->child);
     while (newer->ops->child) {
         cJSON *last = cJSON_DetachItemViaPointer(newer->ops, newer->ops->child->prev);
         cJSON_InsertItemInArray(step->ops, 0, last);

@@ -106,6 +106,7 @@
     X(POSTER_BYTES, "poster_bytes", 1048576, "bytes", "the last picture that is kept of a scene")  \
     X(EDIT_JUMP, "edit_jump", 1000, "numbers", "from an edit of a client to its next")             \
     X(UNDO_GROUPS, "undo_groups", 1000, "groups", "undo steps kept for one author")                \
+    X(UNDO_BYTES, "undo_bytes", 67108864, "bytes", "the same, in memory; a scene has four times")  \
     X(IMAGE_SIDE, "image_side", 16384, "pixels", "width or height of a picture")                   \
     X(IMAGE_PIXELS, "image_pixels", 268435456, "pixels", "width times height of a picture")        \
     X(IMAGE_BYTES, "image_bytes", 268435456, "bytes", "one finished picture, as it is sent")       \

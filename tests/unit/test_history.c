@@ -12,6 +12,7 @@
 #include "protocol/edit.h"
 #include "protocol/json.h"
 #include "protocol/limits.h"
+#include "protocol/memory.h"
 #include "tests/support/edits.h"
 #include "tests/support/json_text.h"
 #include "tests/support/random_edit.h"
@@ -319,6 +320,70 @@ static void steps_are_bounded(void **state)
     assert_depth("anna", 0, LIMIT_UNDO_GROUPS);
 }
 
+/* Operations that set a value of so many bytes. */
+static cJSON *long_value(const char *at, size_t bytes)
+{
+    char *text = memory_alloc(bytes + 1, 1);
+    cJSON *ops = cJSON_CreateArray(), *op = cJSON_CreateObject();
+
+    memset(text, 'x', bytes);
+    cJSON_AddStringToObject(op, "op", "set");
+    cJSON_AddStringToObject(op, "at", at);
+    cJSON_AddStringToObject(op, "value", text);
+    cJSON_AddItemToArray(ops, op);
+    free(text);
+    return ops;
+}
+
+enum { LONG = 1 << 20, LONG_STEPS = LIMIT_UNDO_BYTES / LONG - 1 }; /* of which as many have room */
+
+static void record_long(const char *author, const char *group, size_t bytes)
+{
+    record(history, author, group, long_value("/nodes/body/name", 1),
+           long_value("/nodes/body/name", bytes));
+}
+
+static void memory_of_steps_is_bounded(void **state)
+{
+    (void)state;
+    for (int i = 0; i < LONG_STEPS + 10; i++) {
+        record_long("anna", "", LONG);
+    }
+    assert_depth("anna", LONG_STEPS, 0);
+    record_long("bert", "", 2 * LIMIT_UNDO_BYTES);
+    assert_depth("bert", 1, 0); /* the newest stays, whatever it takes */
+    record_long("bert", "", LONG);
+    assert_depth("bert", 1, 0);
+    assert_depth("anna", LONG_STEPS, 0);
+}
+
+static void memory_of_authors_is_bounded(void **state)
+{
+    (void)state;
+    const char *const names[] = {"anna", "bert", "cleo", "dora", "emil", "finn"};
+
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        for (int k = 0; k < LONG_STEPS; k++) {
+            record_long(names[i], "", LONG);
+        }
+    }
+    assert_depth("anna", 0, 0);
+    assert_depth("cleo", LONG_STEPS, 0);
+    assert_depth("finn", LONG_STEPS, 0);
+}
+
+/* However long something is dragged, it takes the memory of one value. */
+static void groups_take_the_memory_of_one_edit(void **state)
+{
+    (void)state;
+    set_radius("anna", "", "body", 2);
+    for (int i = 0; i < LONG_STEPS + 10; i++) {
+        record(history, "anna", "drag", long_value("/nodes/body/name", LONG),
+               long_value("/nodes/body/name", LONG));
+    }
+    assert_depth("anna", 2, 0);
+}
+
 static void authors_are_bounded(void **state)
 {
     (void)state;
@@ -588,6 +653,9 @@ int main(void)
         cmocka_unit_test_setup_teardown(groups_keep_what_values_depend_on, set_up, tear_down),
         cmocka_unit_test_setup_teardown(steps_are_bounded, set_up, tear_down),
         cmocka_unit_test_setup_teardown(authors_are_bounded, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(memory_of_steps_is_bounded, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(memory_of_authors_is_bounded, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(groups_take_the_memory_of_one_edit, set_up, tear_down),
         cmocka_unit_test(undos_and_redos_cancel),
         cmocka_unit_test(a_log_gives_back_the_steps),
         cmocka_unit_test(undoing_everything_gives_the_beginning),
