@@ -9,6 +9,10 @@
 
 #include <cmocka.h>
 
+#ifdef __SANITIZE_ADDRESS__
+size_t __sanitizer_get_current_allocated_bytes(void);
+#endif
+
 long peak_mib(void)
 {
     long kib = 0;
@@ -22,4 +26,13 @@ long peak_mib(void)
     fclose(file);
     assert_true(kib > 0);
     return kib / 1024;
+}
+
+long peak_held_mib(void)
+{
+#ifdef __SANITIZE_ADDRESS__
+    return (long)(__sanitizer_get_current_allocated_bytes() >> 20);
+#else
+    return peak_mib();
+#endif
 }
