@@ -80,38 +80,68 @@ static void time_text(int64_t ms, char out[40])
     snprintf(out, 40, "%s.%03dZ", date, (int)(ms % 1000));
 }
 
-static size_t viewers_of(const struct hub *hub, const char *id)
+struct listed {
+    struct catalog_entry entry; /* a copy, with a name of its own */
+    size_t viewers;
+};
+
+static int compare_ids(const void *id, const void *listed)
 {
+    return strcmp(id, ((const struct listed *)listed)->entry.id);
+}
+
+/* Whatever the number of scenes, others wait for a copy of the list alone. */
+static struct listed *copy_list(struct hub *hub, size_t *out_count)
+{
+    hub_lock(hub);
+    const struct catalog *catalog = hub->catalog;
+    struct listed *list = memory_alloc(catalog->count + 1, sizeof *list);
+
+    for (size_t i = 0; i < catalog->count; i++) {
+        list[i].entry = *catalog->entries[i];
+        list[i].entry.name = memory_text(catalog->entries[i]->name);
+    }
+    *out_count = catalog->count;
     for (const struct room *room = hub->rooms; room; room = room->next) {
-        if (strcmp(room->id, id) == 0) {
-            return room->session_count;
+        struct listed *found = room->session_count > 0
+                                   ? bsearch(room->id, list, *out_count, sizeof *list, compare_ids)
+                                   : NULL;
+        if (found) {
+            found->viewers = room->session_count;
         }
     }
-    return 0;
+    hub_unlock(hub);
+    return list;
+}
+
+static cJSON *describe(const struct listed *listed)
+{
+    const struct catalog_entry *entry = &listed->entry;
+    cJSON *item = cJSON_CreateObject();
+    char modified[40];
+
+    time_text(entry->modified_ms, modified);
+    cJSON_AddStringToObject(item, "id", entry->id);
+    cJSON_AddStringToObject(item, "name", entry->name);
+    cJSON_AddNumberToObject(item, "revision", (double)entry->revision);
+    cJSON_AddNumberToObject(item, "nodes", (double)entry->nodes);
+    cJSON_AddStringToObject(item, "modified", modified);
+    cJSON_AddNumberToObject(item, "viewers", (double)listed->viewers);
+    return item;
 }
 
 void scenes_list(struct request *request)
 {
-    struct hub *hub = request->hub;
     cJSON *json = cJSON_CreateObject();
-    cJSON *list = cJSON_AddArrayToObject(json, "scenes");
+    cJSON *scenes = cJSON_AddArrayToObject(json, "scenes");
+    size_t count;
+    struct listed *list = copy_list(request->hub, &count);
 
-    hub_lock(hub);
-    for (size_t i = 0; i < hub->catalog->count; i++) {
-        const struct catalog_entry *entry = hub->catalog->entries[i];
-        cJSON *item = cJSON_CreateObject();
-        char modified[40];
-
-        time_text(entry->modified_ms, modified);
-        cJSON_AddStringToObject(item, "id", entry->id);
-        cJSON_AddStringToObject(item, "name", entry->name);
-        cJSON_AddNumberToObject(item, "revision", (double)entry->revision);
-        cJSON_AddNumberToObject(item, "nodes", (double)entry->nodes);
-        cJSON_AddStringToObject(item, "modified", modified);
-        cJSON_AddNumberToObject(item, "viewers", (double)viewers_of(hub, entry->id));
-        cJSON_AddItemToArray(list, item);
+    for (size_t i = 0; i < count; i++) {
+        cJSON_AddItemToArray(scenes, describe(&list[i]));
+        free(list[i].entry.name);
     }
-    hub_unlock(hub);
+    free(list);
     request_reply_json(request, 200, json);
 }
 
