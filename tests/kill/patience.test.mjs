@@ -114,7 +114,7 @@ test('a tile that is long at work is no hung process', async (t) => {
 
 test('a scene whose tiles took too long for one process is drawn by the next in the smallest', async () => {
     const daemon = await start('--worker-busy', '200');
-    const live = await open(daemon, 'smaller', DRAW_SLOWLY, { width: 96, height: 64, aov: 'normal' });
+    const live = await open(daemon, 'smaller', DRAW_SLOWLY, { width: 48, height: 32 });
     await live.nextFrame((frame) => frame.lossless);
     assert.ok((await restarts(daemon)) >= 1);
     assert.deepEqual(errors(live), []);
