@@ -2,28 +2,14 @@
 // @vitest-environment jsdom
 /* Where the focus goes when what has it goes. */
 import { act, type ReactNode, useState } from "react";
-import { createRoot, type Root } from "react-dom/client";
-import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { expect, test, vi } from "vitest";
 import { Region } from "../src/ui/layout/Region.tsx";
 import { Button } from "../src/ui/widgets/Button.tsx";
 import { useLeftFocus } from "../src/ui/widgets/leftFocus.ts";
 import { Menu, MenuItem } from "../src/ui/widgets/Menu.tsx";
+import { prepareShow } from "./show.ts";
 
-let root: Root;
-let element: HTMLElement;
-
-beforeEach(() => {
-    vi.stubGlobal("IS_REACT_ACT_ENVIRONMENT", true);
-    element = document.body.appendChild(document.createElement("div"));
-    root = createRoot(element);
-});
-afterEach(async () => {
-    await act(async () => root.unmount());
-    element.remove();
-    vi.unstubAllGlobals();
-});
-
-const show = (part: ReactNode) => act(async () => root.render(part));
+const show = prepareShow();
 const find = (selector: string) => document.querySelector<HTMLElement>(selector);
 
 function Drawer({ children }: { children: ReactNode }) {

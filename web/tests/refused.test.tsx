@@ -2,9 +2,8 @@
 // @vitest-environment jsdom
 /* Texts that the server would not take, or did not: they stay where they were typed. */
 import { EditorView } from "@codemirror/view";
-import { act, type ReactNode } from "react";
-import { createRoot, type Root } from "react-dom/client";
-import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { act } from "react";
+import { expect, test, vi } from "vitest";
 import { readDocument } from "../src/model/documentJson.ts";
 import type { Operation } from "../src/model/operation.ts";
 import { apply } from "../src/model/operations.ts";
@@ -17,6 +16,7 @@ import { cutInput, useNameCut } from "../src/ui/fields/nameCut.ts";
 import { useTypedText } from "../src/ui/fields/typedText.ts";
 import { EditorContext } from "../src/ui/state.ts";
 import { SCHEMA } from "./fixture.ts";
+import { prepareShow } from "./show.ts";
 
 const CODE = "/primitives/rod/code";
 const limit = (name: string, value: number) => ({ name, value, unit: "bytes", doc: "" });
@@ -29,22 +29,7 @@ const scene = readDocument({
     root: { id: "root", type: "union" },
 });
 
-let root: Root;
-let element: HTMLElement;
-
-beforeEach(() => {
-    vi.stubGlobal("IS_REACT_ACT_ENVIRONMENT", true);
-    element = document.createElement("div");
-    document.body.append(element);
-    root = createRoot(element);
-});
-afterEach(async () => {
-    await act(async () => root.unmount());
-    element.remove();
-    vi.unstubAllGlobals();
-});
-
-const show = (part: ReactNode) => act(async () => root.render(part));
+const show = prepareShow();
 
 test("the bytes of a text count, and its control characters", () => {
     const name = findParam(schema.node, "name");
@@ -87,7 +72,7 @@ async function openCode(editor: Editor) {
         </EditorContext>,
     );
     await act(async () => void (await import("../src/ui/code/mount.ts")));
-    const content = element.querySelector<HTMLElement>(".cm-content") as HTMLElement;
+    const content = document.body.querySelector<HTMLElement>(".cm-content") as HTMLElement;
     const view = EditorView.findFromDOM(content) as EditorView;
     const write = (insert: string): void =>
         view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert } });
@@ -101,7 +86,7 @@ async function openCode(editor: Editor) {
     };
 }
 
-const fault = () => element.querySelector(".code-fault")?.textContent ?? null;
+const fault = () => document.body.querySelector(".code-fault")?.textContent ?? null;
 
 test("code that is too long is not sent and stays, with the reason", async () => {
     const { editor, edit } = setUp();
@@ -190,7 +175,7 @@ test("a name has as many bytes as the server takes", async () => {
             <Name />
         </EditorContext>,
     );
-    const input = element.querySelector("input") as HTMLInputElement;
+    const input = document.body.querySelector("input") as HTMLInputElement;
     await typeInto(input, "123456789");
     expect(input.value).toBe("12345678");
 });
@@ -228,7 +213,7 @@ async function openField(editor: Editor, props: FieldProps) {
             </EditorContext>,
         );
     await draw();
-    const input = element.querySelector("input") as HTMLInputElement;
+    const input = document.body.querySelector("input") as HTMLInputElement;
     return {
         draw,
         text: () => input.value,
