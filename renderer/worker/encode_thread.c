@@ -46,7 +46,7 @@ struct encode_thread {
     pthread_t threads[LANES];
     int started; /* of the threads */
     pthread_mutex_t lock;
-    pthread_cond_t change;
+    pthread_cond_t change[LANES]; /* something for that thread */
     struct work *works, *done; /* in order of arrival */
     bool stop;
     int wake_fd;
@@ -193,7 +193,7 @@ static void serve(struct encode_thread *encode_thread, enum lane lane)
         if (work) {
             encode(encode_thread, work);
         } else {
-            pthread_cond_wait(&encode_thread->change, &encode_thread->lock);
+            pthread_cond_wait(&encode_thread->change[lane], &encode_thread->lock);
         }
     }
     pthread_mutex_unlock(&encode_thread->lock);
@@ -238,7 +238,9 @@ struct encode_thread *encode_thread_create(int wake_fd, struct error *err)
 
     encode_thread->wake_fd = wake_fd;
     pthread_mutex_init(&encode_thread->lock, NULL);
-    pthread_cond_init(&encode_thread->change, NULL);
+    for (int lane = 0; lane < LANES; lane++) {
+        pthread_cond_init(&encode_thread->change[lane], NULL);
+    }
     if (!start_threads(encode_thread)) {
         error_set(err, ERROR_UNAVAILABLE, "", "no thread for encoding pictures");
         encode_thread_destroy(encode_thread);
@@ -256,7 +258,9 @@ void encode_thread_destroy(struct encode_thread *encode_thread)
     }
     pthread_mutex_lock(&encode_thread->lock);
     encode_thread->stop = true;
-    pthread_cond_broadcast(&encode_thread->change);
+    for (int lane = 0; lane < LANES; lane++) {
+        pthread_cond_signal(&encode_thread->change[lane]);
+    }
     pthread_mutex_unlock(&encode_thread->lock);
     while (encode_thread->started > 0) {
         pthread_join(encode_thread->threads[--encode_thread->started], NULL);
@@ -265,7 +269,9 @@ void encode_thread_destroy(struct encode_thread *encode_thread)
            (left = take_first(&encode_thread->done))) {
         encoding_destroy(&left->result);
     }
-    pthread_cond_destroy(&encode_thread->change);
+    for (int lane = 0; lane < LANES; lane++) {
+        pthread_cond_destroy(&encode_thread->change[lane]);
+    }
     pthread_mutex_destroy(&encode_thread->lock);
     free(encode_thread);
 }
@@ -304,6 +310,15 @@ static struct work *work_of(struct encoding *encoding)
     return (struct work *)(void *)encoding;
 }
 
+/* The thread that the picture is for, alone: one that is woken for nothing takes the lock, and may
+ * wait for a processor then. */
+static void wake_thread(struct encode_thread *encode_thread, const struct work *work)
+{
+    if (!work->is_small) {
+        pthread_cond_signal(&encode_thread->change[lane_of(work)]);
+    }
+}
+
 void encode_thread_add(struct encode_thread *encode_thread, struct encoding *encoding, enum aov aov,
                        struct image image)
 {
@@ -317,7 +332,7 @@ void encode_thread_add(struct encode_thread *encode_thread, struct encoding *enc
     }
     *end = rows;
     work->waiting_bytes += image.bytes;
-    pthread_cond_broadcast(&encode_thread->change);
+    wake_thread(encode_thread, work);
     pthread_mutex_unlock(&encode_thread->lock);
 }
 
@@ -331,7 +346,7 @@ void encode_thread_end(struct encode_thread *encode_thread, struct encoding *enc
     work->whole = whole;
     while (is_mine && encode(encode_thread, work)) {
     }
-    pthread_cond_broadcast(&encode_thread->change);
+    wake_thread(encode_thread, work);
     pthread_mutex_unlock(&encode_thread->lock);
 }
 

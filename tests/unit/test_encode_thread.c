@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* The encoding threads: pictures that come in pieces, in turns, are those that image_encode makes;
  * one that fails or is given up comes back at once; an urgent one waits for no other. */
+#include <dirent.h>
 #include <semaphore.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
@@ -303,6 +305,55 @@ static void the_owner_encodes_a_small_jpeg(void **state)
     image_finish(&image);
 }
 
+/* How often the threads for pictures have waited. */
+static int count_waits(void)
+{
+    DIR *threads = opendir("/proc/self/task");
+    int waits = 0;
+
+    assert_non_null(threads);
+    for (const struct dirent *entry; (entry = readdir(threads));) {
+        char path[300], line[200];
+        int count = 0;
+        FILE *status;
+
+        snprintf(path, sizeof path, "/proc/self/task/%s/status", entry->d_name);
+        if (atoi(entry->d_name) <= 0 || atoi(entry->d_name) == getpid() ||
+            !(status = fopen(path, "r"))) {
+            continue;
+        }
+        while (fgets(line, sizeof line, status)) {
+            sscanf(line, "voluntary_ctxt_switches: %d", &count);
+        }
+        fclose(status);
+        waits += count;
+    }
+    closedir(threads);
+    return waits;
+}
+
+/* One that is woken takes the lock, and the owner waits for it while it has no processor. */
+static void a_small_jpeg_wakes_no_thread(void **state)
+{
+    const struct encode_params params = {.format = CODEC_JPEG};
+    struct image image = make_image(WIDTH, BAND, 8);
+    int before, waits = count_waits();
+
+    (void)state;
+    do { /* until both threads have begun to wait */
+        before = waits;
+        usleep(20000);
+        waits = count_waits();
+    } while (waits < 2 || waits != before);
+    struct encoding *encoding = begin(&image, &params);
+    add(encoding, &image, 0, BAND);
+    encode_thread_end(encode_thread, encoding, true);
+    encoding_destroy(take());
+    usleep(20000);
+    assert_int_equal(count_waits(), waits);
+    image_finish(&image);
+}
+
 static void left_behind(void **state)
 {
     struct image image = make_image(WIDTH, HEIGHT, 6);
@@ -321,6 +372,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(full_queues_are_encoded_in_parts, start, stop),
         cmocka_unit_test_setup_teardown(urgent_encodings_come_first, start, stop),
         cmocka_unit_test_setup_teardown(the_owner_encodes_a_small_jpeg, start, stop),
+        cmocka_unit_test_setup_teardown(a_small_jpeg_wakes_no_thread, start, stop),
         cmocka_unit_test_setup_teardown(left_behind, start, stop),
     };
 
