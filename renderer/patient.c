@@ -7,6 +7,8 @@
 #include <sys/resource.h>
 #include <time.h>
 
+#include "slice.h"
+
 enum { PATIENT_NICE = 5, NS = 1000000000, NS_OF_MS = 1000000 };
 
 static struct {
@@ -34,6 +36,7 @@ static void *run(void *data)
     void *const own = start->data;
 
     setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + PATIENT_NICE);
+    slice_long();
     sem_post(&start->ready);
     return main(own);
 }

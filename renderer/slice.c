@@ -24,6 +24,11 @@ void slice_short(void)
     set_runtime((uint64_t)SLICE_SHORT_US * NS_OF_US);
 }
 
+void slice_long(void)
+{
+    set_runtime((uint64_t)SLICE_LONG_US * NS_OF_US);
+}
+
 void slice_normal(void)
 {
     set_runtime(0);

@@ -11,6 +11,7 @@
 #include "protocol/accounts.h"
 #include "protocol/limits.h"
 #include "protocol/memory.h"
+#include "renderer/slice.h"
 
 enum { THREADS = 2, LIGHT_THREAD = 0, HEAVY_NICE = 5 };
 
@@ -159,6 +160,7 @@ static void *run(void *data)
     free(seat);
     if (thread != LIGHT_THREAD) { /* Linux has a priority for each thread. */
         setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + HEAVY_NICE);
+        slice_long();
     }
     pthread_mutex_lock(&tasks->lock);
     while (!tasks->stopping) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Short slices are those of the thread and of those that it creates, and change nothing else. Linux
+/* Slices are those of the thread and of those that it creates, and change nothing else. Linux
  * before 6.12 tells a slice of 0 and keeps none: there nothing changes at all. */
 #include <pthread.h>
 #include <setjmp.h>
@@ -51,16 +51,14 @@ static struct attributes look_in_new_thread(void)
     return attributes;
 }
 
-static void slices_are_short_between(void **state)
+static void assert_between(void (*set)(void), uint64_t us)
 {
-    assert_int_equal(setpriority(PRIO_PROCESS, 0, NICE), 0);
     const struct attributes before = look();
     const bool kept = before.runtime > 0;
 
-    (void)state;
-    slice_short();
+    set();
     struct attributes between = look();
-    assert_int_equal(between.runtime, kept ? SLICE_SHORT_US * NS_OF_US : 0);
+    assert_int_equal(between.runtime, kept ? us * NS_OF_US : 0);
     assert_int_equal(look_in_new_thread().runtime, between.runtime);
     between.runtime = before.runtime;
     assert_memory_equal(&between, &before, sizeof before);
@@ -70,9 +68,17 @@ static void slices_are_short_between(void **state)
     assert_memory_equal(&there, &before, sizeof before);
 }
 
+static void slices_are_short_or_long_between(void **state)
+{
+    (void)state;
+    assert_int_equal(setpriority(PRIO_PROCESS, 0, NICE), 0);
+    assert_between(slice_short, SLICE_SHORT_US);
+    assert_between(slice_long, SLICE_LONG_US);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(slices_are_short_between)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(slices_are_short_or_long_between)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
