@@ -33,34 +33,62 @@ static cJSON *code_set(const cJSON *json)
     return cJSON_IsString(at) && is_code(value) && ends_with_member(at->valuestring) ? value : NULL;
 }
 
-static bool find_below(const cJSON *json, const char *place, char out_place[ERROR_PLACE_BYTES])
+/* Where a value is: what it is a member of, and so on. Edits of thousands of operations are looked
+ * through, so a place is printed only where code is. */
+struct way {
+    const struct way *outer; /* NULL: the whole */
+    const cJSON *json;
+    size_t index;
+};
+
+static void print_way(const struct way *way, char out_place[ERROR_PLACE_BYTES])
 {
-    size_t index = 0;
+    char number[24];
 
-    if (code_set(json)) {
-        snprintf(out_place, ERROR_PLACE_BYTES, "%s",
-                 cJSON_GetObjectItemCaseSensitive(json, "at")->valuestring);
-        return true;
+    if (!way->outer) {
+        out_place[0] = '\0';
+        return;
     }
-    for (const cJSON *child = json->child; child; child = child->next) {
-        char path[ERROR_PLACE_BYTES], number[24];
+    print_way(way->outer, out_place);
+    snprintf(number, sizeof number, "%zu", way->index);
+    error_place(out_place, out_place, way->json->string ? way->json->string : number);
+}
 
-        snprintf(number, sizeof number, "%zu", index++);
-        error_place(path, place, child->string ? child->string : number);
+/* Sets the place of code that is set, or else where the code is; true. */
+static bool tell(const struct way *way, const cJSON *set, char *out_place)
+{
+    if (out_place && set) {
+        snprintf(out_place, ERROR_PLACE_BYTES, "%s",
+                 cJSON_GetObjectItemCaseSensitive(way->json, "at")->valuestring);
+    } else if (out_place) {
+        print_way(way, out_place);
+    }
+    return true;
+}
+
+static bool find_below(const struct way *way, char *out_place)
+{
+    const cJSON *set = code_set(way->json);
+    struct way next = {.outer = way};
+
+    if (set) {
+        return tell(way, set, out_place);
+    }
+    for (const cJSON *child = way->json->child; child; child = child->next, next.index++) {
+        next.json = child;
         if (is_code(child) && is_named(child, member)) {
-            snprintf(out_place, ERROR_PLACE_BYTES, "%s", path);
-            return true;
+            return tell(&next, NULL, out_place);
         }
-        if (find_below(child, path, out_place)) {
+        if (child->child && find_below(&next, out_place)) {
             return true;
         }
     }
     return false;
 }
 
-bool code_text_find(const cJSON *json, char out_place[ERROR_PLACE_BYTES])
+bool code_text_find(const cJSON *json, char *out_place)
 {
-    return find_below(json, "", out_place);
+    return find_below(&(struct way){.json = json}, out_place);
 }
 
 void code_text_remove(cJSON *json)

@@ -5,8 +5,9 @@
 
 #include "scene.h"
 
-/* The first code that a document, or an array of operations, brings: its place, and true. */
-bool code_text_find(const cJSON *json, char out_place[ERROR_PLACE_BYTES]);
+/* The first code that a document, or an array of operations, brings: its place (NULL: of no
+ * interest), and true. */
+bool code_text_find(const cJSON *json, char *out_place);
 /* Replaces all code by empty texts. */
 void code_text_remove(cJSON *json);
 

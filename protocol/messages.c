@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "code_text.h"
 #include "edit.h"
 #include "json.h"
 #include "limits.h"
@@ -354,6 +355,9 @@ bool message_read(const char *text, size_t length, struct message *out, struct e
         render_request_init(&out->view);
     }
     ok = ok && read_members(out, err);
+    if (ok && out->kind == MESSAGE_EDIT) {
+        out->plain = !code_text_find(cJSON_GetObjectItemCaseSensitive(out->json, "ops"), NULL);
+    }
     if (!ok) {
         message_finish(out);
     }

@@ -31,6 +31,7 @@ enum { MESSAGE_KEY_CHARACTERS = 32 }; /* of a client: 128 random bits */
 struct message {
     enum message_kind kind;
     cJSON *json; /* the whole object, checked: members known, types and ranges right */
+    bool plain;  /* MESSAGE_EDIT: its operations hold no code */
     /* Its records and lists of ids: */
     struct render_request view;            /* MESSAGE_VIEW: camera, section and isolate alone */
     struct id_set nodes, large, materials; /* MESSAGE_THUMBNAILS; MESSAGE_BOUNDS: nodes */

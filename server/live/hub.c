@@ -77,7 +77,7 @@ bool hub_accepts_edit(const struct hub *hub, const cJSON *ops, struct error *err
 {
     char place[ERROR_PLACE_BYTES];
 
-    return !hub->code_refused || !code_text_find(ops, place) || refuse_code(place, err);
+    return !hub->code_refused || !ops || !code_text_find(ops, place) || refuse_code(place, err);
 }
 
 struct room *hub_find_room(const struct hub *hub, const char *id)

@@ -74,7 +74,7 @@ void hub_wait_until(struct hub *hub, pthread_cond_t *condition, int64_t until_us
 /* The open room with that id; NULL: none is open. Under the lock. */
 struct room *hub_find_room(const struct hub *hub, const char *id);
 /* Refuse users' code where the server accepts none: false and ERROR_FORBIDDEN, with the place of
- * the code in the scene or in the operations. */
+ * the code in the scene or in the operations. NULL: operations without code. */
 bool hub_accepts_scene(const struct hub *hub, const struct scene *scene, struct error *err);
 bool hub_accepts_edit(const struct hub *hub, const cJSON *ops, struct error *err);
 /* `[a-z0-9-]{1,64}` */

@@ -225,11 +225,12 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
         .change = change, .ops = ops, .heavy = room_edit_is_heavy(room, ops)};
     const enum room_outcome outcome = room_authors_check_number(room, change, out_revision, err);
 
+    const cJSON *new_code = change->plain ? NULL : ops;
     if (outcome != ROOM_APPLIED) {
         return outcome;
     }
-    last_good_before_edit(room, ops);
-    if (!check_open(room, err) || !hub_accepts_edit(room->hub, ops, err) ||
+    last_good_before_edit(room, new_code);
+    if (!check_open(room, err) || !hub_accepts_edit(room->hub, new_code, err) ||
         !room_apply(room, &order, &work, err)) {
         metric_add(&room->hub->metrics, METRIC_EDITS_REJECTED, 1);
         return ROOM_REFUSED;

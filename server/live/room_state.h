@@ -113,6 +113,7 @@ struct room_change {
     int64_t edit;              /* 0: none */
     const char *group, *label; /* of the step of undo; may be NULL */
     struct session *session;   /* of the author; NULL: none */
+    bool plain;                /* the operations hold no code, as was found without the lock */
     void (*then)(void *data);  /* after the commit, on the store's thread; may be NULL */
     void *data;
 };

@@ -69,6 +69,7 @@ static void edit(struct session *session, const struct message *message)
         .group = json_member_text(message->json, "group", NULL),
         .label = json_member_text(message->json, "label", NULL),
         .session = session,
+        .plain = message->plain,
     };
     struct room *room = session->room;
     cJSON *skipped = NULL;

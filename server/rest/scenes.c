@@ -455,6 +455,7 @@ void scenes_edit(struct request *request)
 {
     struct error err = {0};
     cJSON *ops = json_parse(request->body ? request->body : "", request->body_length, &err);
+    const bool plain = ops && !code_text_find(ops, NULL);
     struct room *room = ops && edit_check(ops, &err)
                             ? hub_lock_room_to_change(request->hub, request->capture[0], &err)
                             : NULL;
@@ -462,7 +463,8 @@ void scenes_edit(struct request *request)
     bool applied = false;
 
     if (room) {
-        struct room_change change = {.author = "rest", .then = answer_change, .data = waiting};
+        const struct room_change change = {
+            .author = "rest", .then = answer_change, .data = waiting, .plain = plain};
 
         applied = check_match(request, room, &err) &&
                   room_edit(room, &change, ops, &waiting->revision, &err) == ROOM_APPLIED;

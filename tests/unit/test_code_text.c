@@ -59,6 +59,7 @@ static void code_is_found(void **state)
         char place[ERROR_PLACE_BYTES] = "";
 
         assert_int_equal(code_text_find(json, place), rows[i].place != NULL);
+        assert_int_equal(code_text_find(json, NULL), rows[i].place != NULL);
         assert_string_equal(place, rows[i].place ? rows[i].place : "");
         cJSON_Delete(json);
     }

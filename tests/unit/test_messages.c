@@ -102,6 +102,24 @@ static void valid_messages_are_accepted(void **state)
     }
 }
 
+static void edits_without_code_are_known(void **state)
+{
+    struct message message;
+
+    (void)state;
+    message = read_valid("{'type':'edit','edit':1,'ops':[{'op':'set','at':'/name','value':'x'},"
+                         "{'op':'set','at':'/shaders/s/code','value':''}]}");
+    assert_true(message.plain);
+    message_finish(&message);
+    message = read_valid("{'type':'edit','edit':1,'ops':[{'op':'set','at':'/name','value':'x'},"
+                         "{'op':'set','at':'/shaders/s/code','value':'x'}]}");
+    assert_false(message.plain);
+    message_finish(&message);
+    message = read_valid("{'type':'undo','edit':2}");
+    assert_false(message.plain); /* nobody has looked */
+    message_finish(&message);
+}
+
 static void invalid_messages_are_refused(void **state)
 {
     (void)state;
@@ -320,6 +338,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(valid_messages_are_accepted),
+        cmocka_unit_test(edits_without_code_are_known),
         cmocka_unit_test(invalid_messages_are_refused),
         cmocka_unit_test(records_and_lists_are_read),
         cmocka_unit_test(refuses_large_messages),
