@@ -51,14 +51,20 @@ struct history_entry {
 
 struct history *history_create(void);
 void history_destroy(struct history *history);
-/* The author's steps are gone. */
+/* The steps of all authors, or of one, are gone. */
+void history_clear(struct history *history);
 void history_forget(struct history *history, const char *author);
+/* About how long the operations and values of all steps are. */
+size_t history_bytes(const struct history *history);
+/* Steps that are gone, as one list for history_discard, and how long they are; NULL: none. Freeing
+ * them takes long, so the history does that only when it is destroyed itself. */
+struct step *history_take_dropped(struct history *history, size_t *out_bytes);
 /* Edits of one author with the same non-empty group join in one step; of several sets of one place
  * in a group only the oldest value is kept. An undo or redo moves a step without applying it. */
 void history_record(struct history *history, const struct history_entry *entry);
 /* What is long about recording an edit, without the history; takes the inverse. */
 struct step *history_prepare(const struct history_entry *entry);
-/* One of an edit that is not recorded after all; NULL is fine. */
+/* Frees one of an edit that is not recorded after all, or a list; NULL is fine. */
 void history_discard(struct step *step);
 
 /* What an undo or redo did. */

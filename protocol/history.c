@@ -23,24 +23,38 @@ struct author {
 
 struct history {
     struct author *newest;
+    struct step *dropped; /* in no stack any more */
 };
 
 /* --- stacks --- */
 
-static void drop_oldest(struct stack *stack)
+static void drop(struct history *history, struct step *step)
 {
-    step_destroy(stack->items[0]);
+    step->next = history->dropped;
+    history->dropped = step;
+}
+
+static void drop_oldest(struct history *history, struct stack *stack)
+{
+    drop(history, stack->items[0]);
     stack->count--;
     memmove(stack->items, stack->items + 1, stack->count * sizeof *stack->items);
 }
 
-static void push(struct stack *stack, struct step *step)
+static void drop_above(struct history *history, struct stack *stack, size_t left)
+{
+    while (stack->count > left) {
+        drop(history, stack->items[--stack->count]);
+    }
+}
+
+static void push(struct history *history, struct stack *stack, struct step *step)
 {
     if (!stack->items) {
         stack->items = memory_alloc(LIMIT_UNDO_GROUPS, sizeof *stack->items);
     }
     if (stack->count == LIMIT_UNDO_GROUPS) {
-        drop_oldest(stack);
+        drop_oldest(history, stack);
     }
     stack->items[stack->count++] = step;
 }
@@ -55,21 +69,19 @@ static size_t bytes_in(const struct stack *stack)
     return bytes;
 }
 
-static void clear(struct stack *stack)
+static void clear(struct history *history, struct stack *stack)
 {
-    while (stack->count > 0) {
-        step_destroy(stack->items[--stack->count]);
-    }
+    drop_above(history, stack, 0);
     free(stack->items);
     stack->items = NULL;
 }
 
 /* --- authors --- */
 
-static void author_destroy(struct author *author)
+static void author_destroy(struct history *history, struct author *author)
 {
-    clear(&author->undo);
-    clear(&author->redo);
+    clear(history, &author->undo);
+    clear(history, &author->redo);
     free(author->name);
     free(author);
 }
@@ -115,7 +127,7 @@ static void forget_oldest(struct history *history)
     while (*link) {
         struct author *oldest = *link;
         *link = oldest->next;
-        author_destroy(oldest);
+        author_destroy(history, oldest);
     }
 }
 
@@ -139,7 +151,7 @@ static struct author *hear_of(struct history *history, const char *name)
 
 /* Of an author whose steps are others now: drops the oldest beyond the memory that they may have,
  * but not the newest, which is the last to redo or to undo. */
-static void weigh(struct author *author, bool redo)
+static void weigh(struct history *history, struct author *author, bool redo)
 {
     const size_t undo_left = redo ? 0 : 1;
 
@@ -148,7 +160,7 @@ static void weigh(struct author *author, bool redo)
         if (author->bytes <= LIMIT_UNDO_BYTES || author->undo.count + author->redo.count <= 1) {
             return;
         }
-        drop_oldest(author->undo.count > undo_left ? &author->undo : &author->redo);
+        drop_oldest(history, author->undo.count > undo_left ? &author->undo : &author->redo);
     }
 }
 
@@ -159,14 +171,44 @@ struct history *history_create(void)
     return memory_alloc(1, sizeof(struct history));
 }
 
-void history_destroy(struct history *history)
+void history_clear(struct history *history)
 {
-    while (history && history->newest) {
+    while (history->newest) {
         struct author *author = history->newest;
         history->newest = author->next;
-        author_destroy(author);
+        author_destroy(history, author);
+    }
+}
+
+void history_destroy(struct history *history)
+{
+    if (history) {
+        history_clear(history);
+        history_discard(history->dropped);
     }
     free(history);
+}
+
+size_t history_bytes(const struct history *history)
+{
+    size_t bytes = 0;
+
+    for (const struct author *author = history->newest; author; author = author->next) {
+        bytes += author->bytes;
+    }
+    return bytes;
+}
+
+struct step *history_take_dropped(struct history *history, size_t *out_bytes)
+{
+    struct step *dropped = history->dropped;
+
+    history->dropped = NULL;
+    *out_bytes = 0;
+    for (const struct step *step = dropped; step; step = step->next) {
+        *out_bytes += step->bytes;
+    }
+    return dropped;
 }
 
 void history_forget(struct history *history, const char *author_name)
@@ -176,7 +218,7 @@ void history_forget(struct history *history, const char *author_name)
 
     if (author) {
         *link = author->next;
-        author_destroy(author);
+        author_destroy(history, author);
     }
 }
 
@@ -187,56 +229,53 @@ struct step *history_prepare(const struct history_entry *entry)
 
 void history_discard(struct step *step)
 {
-    if (step) {
+    while (step) {
+        struct step *next = step->next;
+
         step_destroy(step);
+        step = next;
     }
 }
 
-static void record_edit(struct author *author, const struct history_entry *entry)
+static void record_edit(struct history *history, struct author *author,
+                        const struct history_entry *entry)
 {
     struct step *step = entry->step ? entry->step : history_prepare(entry);
     struct stack *undo = &author->undo;
     struct step *newest = undo->count > 0 ? undo->items[undo->count - 1] : NULL;
 
-    clear(&author->redo);
+    clear(history, &author->redo);
     const bool joins = newest && *step->group && strcmp(step->group, newest->group) == 0;
     if (!joins || !step_join(newest, step)) {
-        push(undo, step);
+        push(history, undo, step);
     }
 }
 
-/* Steps above were found to be gone: nothing of them applied. */
-static void drop_above(struct stack *stack, size_t left)
+static void record_move(struct history *history, struct stack *from, struct stack *to,
+                        const struct history_entry *entry)
 {
-    while (stack->count > left) {
-        step_destroy(stack->items[--stack->count]);
-    }
-}
-
-static void record_move(struct stack *from, struct stack *to, const struct history_entry *entry)
-{
-    push(to, step_create(NULL, entry->label, entry->applied, entry->inverse));
-    drop_above(from, from->count > 0 ? from->count - 1 : 0);
+    push(history, to, step_create(NULL, entry->label, entry->applied, entry->inverse));
+    drop_above(history, from, from->count > 0 ? from->count - 1 : 0);
 }
 
 void history_record(struct history *history, const struct history_entry *entry)
 {
     struct author *author = hear_of(history, entry->author);
 
-    drop_above(&author->undo, entry->undo);
-    drop_above(&author->redo, entry->redo);
+    drop_above(history, &author->undo, entry->undo); /* those above were found to be gone */
+    drop_above(history, &author->redo, entry->redo);
     switch (entry->kind) {
     case HISTORY_EDIT:
-        record_edit(author, entry);
+        record_edit(history, author, entry);
         break;
     case HISTORY_UNDO:
-        record_move(&author->undo, &author->redo, entry);
+        record_move(history, &author->undo, &author->redo, entry);
         break;
     case HISTORY_REDO:
-        record_move(&author->redo, &author->undo, entry);
+        record_move(history, &author->redo, &author->undo, entry);
         break;
     }
-    weigh(author, entry->kind == HISTORY_UNDO);
+    weigh(history, author, entry->kind == HISTORY_UNDO);
 }
 
 /* Tells of the first of the values that somebody else has set since. */
@@ -290,10 +329,10 @@ void history_put(struct history *history, const char *author_name, bool redo,
 {
     struct author *author = hear_of(history, author_name);
 
-    push(stack_of(author, !redo), move->back);
+    push(history, stack_of(author, !redo), move->back);
     history_discard(move->step);
     move->step = move->back = NULL;
-    weigh(author, !redo);
+    weigh(history, author, !redo);
 }
 
 void history_return(struct history *history, const char *author_name, bool redo,
@@ -303,7 +342,7 @@ void history_return(struct history *history, const char *author_name, bool redo,
         return;
     }
     step_give_back(move->step, move->skipped);
-    push(stack_of(hear_of(history, author_name), redo), move->step);
+    push(history, stack_of(hear_of(history, author_name), redo), move->step);
     step_destroy(move->back);
     cJSON_Delete(move->applied);
     *move = (struct history_move){0};

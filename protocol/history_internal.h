@@ -14,6 +14,7 @@ struct step {
     bool values;   /* nothing but values are set: places may be joined */
     void *places;  /* search tree: the value that was set last at each place (struct place_value) */
     void *records; /* search tree of texts: the records that these places are in */
+    struct step *next; /* of those that no stack holds any more */
 };
 
 /* `applied`: what the step takes back, in canonical form. Takes `inverse`. */

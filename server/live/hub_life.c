@@ -21,6 +21,7 @@
 #include "quarantine.h"
 #include "render_queue.h"
 #include "room.h"
+#include "room_apart.h"
 #include "room_snapshot.h"
 #include "room_sync.h"
 #include "scene_error.h"
@@ -240,12 +241,12 @@ static struct room *close_idle_rooms(struct hub *hub, int64_t now_ms)
     return closed;
 }
 
-static void destroy_rooms(struct room *room)
+static void drop_rooms(struct room *room)
 {
     while (room) {
         struct room *next = room->next;
 
-        room_destroy(room);
+        room_drop(room);
         room = next;
     }
 }
@@ -272,7 +273,7 @@ static int64_t on_tick(void *data, int64_t now_ms)
         hub->next_cleaning = now_ms + 5000;
     }
     hub_unlock(hub);
-    destroy_rooms(closed);
+    drop_rooms(closed);
     return next;
 }
 
@@ -386,12 +387,12 @@ void hub_destroy(struct hub *hub)
         return;
     }
     hub_stop(hub);
-    tasks_destroy(hub->tasks);
     algebra_destroy(hub->algebra);
     questions_destroy(hub->questions);
     picker_destroy(hub->picker);
     supervisor_destroy(hub->supervisor);
     store_close(hub->store);
+    tasks_destroy(hub->tasks); /* the last commits of a room that was deleted end it */
     while (hub->rooms) {
         struct room *room = hub->rooms;
 

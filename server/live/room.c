@@ -14,6 +14,7 @@
 #include "protocol/code_text.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
+#include "room_apart.h"
 #include "room_authors.h"
 #include "room_history.h"
 #include "room_snapshot.h"
@@ -121,8 +122,7 @@ static void recall_all(struct room *room, const struct store_loaded *loaded)
         if (!recall(room, &loaded->past[i], &err)) {
             log_warning("room", "%s: what was done before cannot be undone: %s", room->id,
                         err.message);
-            history_destroy(room->history);
-            room->history = history_create();
+            history_clear(room->history);
             return;
         }
     }
@@ -148,6 +148,7 @@ struct room *room_load(struct hub *hub, const char *id, const struct store_loade
         return NULL;
     }
     recall_all(room, loaded);
+    room_drop_steps(room);
     room_authors_load(room, loaded);
     room->durable = room->log_from = room->revision;
     room->edits_since_snapshot = (int)loaded->edit_count;
@@ -214,6 +215,7 @@ static struct store_step record_step(struct room *room, const struct room_change
                                                           .step = work->step,
                                                           .undo = step.undo,
                                                           .redo = step.redo});
+    room_drop_steps(room);
     return step;
 }
 
@@ -223,9 +225,9 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
     struct room_work work = {0};
     const struct room_order order = {
         .change = change, .ops = ops, .heavy = room_edit_is_heavy(room, ops)};
+    const cJSON *new_code = change->plain ? NULL : ops;
     const enum room_outcome outcome = room_authors_check_number(room, change, out_revision, err);
 
-    const cJSON *new_code = change->plain ? NULL : ops;
     if (outcome != ROOM_APPLIED) {
         return outcome;
     }
@@ -273,6 +275,7 @@ static bool move_step(struct room *room, const struct room_change *change, bool 
     } else {
         history_return(room->history, change->author, redo, move);
     }
+    room_drop_steps(room);
     return ok;
 }
 
@@ -325,8 +328,8 @@ struct scene *room_replace(struct room *room, const struct room_document *docume
 
     room->scene = document->scene;
     room->bytes = strlen(document->text);
-    history_destroy(room->history);
-    room->history = history_create();
+    history_clear(room->history);
+    room_drop_steps(room);
     room->revision++;
     room->edits_since_snapshot = 0;
     room_keep_text(room, document->kept);

@@ -62,6 +62,19 @@ struct scene *room_copy_to_edit(struct room *room)
     return copy;
 }
 
+/* --- ends --- */
+
+/* Now, or on a thread of tasks what is large. */
+static void destroy(struct hub *hub, void (*run)(void *data, bool dropped), void *data, bool large)
+{
+    const struct task_order order = {
+        .scene = "", .account = "", .heavy = true, .run = run, .data = data};
+
+    if (!large || !tasks_add(hub->tasks, &order, NULL)) {
+        run(data, false);
+    }
+}
+
 static void destroy_scene(void *data, bool dropped)
 {
     (void)dropped;
@@ -70,12 +83,35 @@ static void destroy_scene(void *data, bool dropped)
 
 void room_drop_scene(struct hub *hub, struct scene *scene)
 {
-    const struct task_order order = {
-        .scene = "", .account = "", .heavy = true, .run = destroy_scene, .data = scene};
+    destroy(hub, destroy_scene, scene, scene && scene->node_count > TASK_LIGHT_NODES);
+}
 
-    if (!scene || scene->node_count <= TASK_LIGHT_NODES || !tasks_add(hub->tasks, &order, NULL)) {
-        scene_destroy(scene);
-    }
+static void destroy_steps(void *data, bool dropped)
+{
+    (void)dropped;
+    history_discard(data);
+}
+
+void room_drop_steps(struct room *room)
+{
+    size_t bytes = 0;
+    struct step *steps = history_take_dropped(room->history, &bytes);
+
+    destroy(room->hub, destroy_steps, steps, bytes > TASK_LIGHT_BYTES);
+}
+
+static void destroy_room(void *data, bool dropped)
+{
+    struct room *room = data;
+
+    (void)dropped;
+    room->destroy(room);
+}
+
+void room_drop(struct room *room)
+{
+    destroy(room->hub, destroy_room, room,
+            room_is_heavy(room) || history_bytes(room->history) > TASK_LIGHT_BYTES);
 }
 
 /* --- text --- */

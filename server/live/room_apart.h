@@ -47,8 +47,11 @@ struct scene *room_copy(struct room *room);
 /* The same for who edits the document next, before the lock is released again. Nobody may hold the
  * room; who has come to hold it meanwhile is waited for. */
 struct scene *room_copy_to_edit(struct room *room);
-/* Destroys a scene that was the room's; one of many nodes on a thread of tasks. */
+/* Destroy a scene that was the room's, steps that its history has dropped, and a room that nobody
+ * knows any more; large ones on a thread of tasks. The last one needs no lock. */
 void room_drop_scene(struct hub *hub, struct scene *scene);
+void room_drop_steps(struct room *room);
+void room_drop(struct room *room);
 /* False and `err` where a document of so many bytes is longer than a scene may be. */
 bool room_check_bytes(size_t bytes, struct error *err);
 /* Applies the order, unless the document would be too long. Nobody may hold the room. Releases the

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "hub.h"
+#include "room_apart.h"
 #include "room_history.h"
 #include "room_store.h"
 
@@ -89,6 +90,7 @@ void room_authors_cut(struct room *room)
 {
     if (room->revision > STORE_LOG_KEPT) {
         authors_cut(&room->authors, room->revision - STORE_LOG_KEPT, forget, room->history);
+        room_drop_steps(room);
     }
 }
 

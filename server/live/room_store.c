@@ -8,6 +8,7 @@
 #include "catalog.h"
 #include "hub.h"
 #include "protocol/memory.h"
+#include "room_apart.h"
 #include "session.h"
 
 /* A commit under way. */
@@ -39,7 +40,7 @@ static void on_durable(void *data)
     const bool last = room->deleted && room->pending == 0;
     hub_unlock(hub);
     if (last) {
-        room->destroy(room); /* nobody else knows it any more */
+        room_drop(room); /* nobody else knows it any more */
     }
     if (commit->then) {
         commit->then(commit->data);

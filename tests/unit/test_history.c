@@ -343,6 +343,15 @@ static void record_long(const char *author, const char *group, size_t bytes)
            long_value("/nodes/body/name", bytes));
 }
 
+/* Frees the steps that are gone; answers how long they were, in whole LONG. */
+static size_t free_dropped(void)
+{
+    size_t bytes;
+
+    history_discard(history_take_dropped(history, &bytes));
+    return bytes / LONG;
+}
+
 static void memory_of_steps_is_bounded(void **state)
 {
     (void)state;
@@ -350,11 +359,31 @@ static void memory_of_steps_is_bounded(void **state)
         record_long("anna", "", LONG);
     }
     assert_depth("anna", LONG_STEPS, 0);
+    assert_int_equal(free_dropped(), 10);
     record_long("bert", "", 2 * LIMIT_UNDO_BYTES);
     assert_depth("bert", 1, 0); /* the newest stays, whatever it takes */
     record_long("bert", "", LONG);
     assert_depth("bert", 1, 0);
     assert_depth("anna", LONG_STEPS, 0);
+    assert_int_equal(free_dropped(), 2 * LIMIT_UNDO_BYTES / LONG);
+    assert_int_equal(free_dropped(), 0);
+}
+
+/* Whose lock it takes does not wait until they are freed. */
+static void steps_that_are_gone_are_handed_out(void **state)
+{
+    (void)state;
+    record_long("anna", "", 2 * LONG);
+    record_long("anna", "", 3 * LONG);
+    record_long("bert", "", 4 * LONG);
+    assert_int_equal(free_dropped(), 0);
+    history_forget(history, "bert");
+    assert_int_equal(free_dropped(), 4);
+    assert_int_equal(history_bytes(history) / LONG, 5);
+    history_clear(history);
+    assert_int_equal(history_bytes(history), 0);
+    assert_depth("anna", 0, 0);
+    assert_int_equal(free_dropped(), 5);
 }
 
 static void memory_of_authors_is_bounded(void **state)
@@ -365,6 +394,7 @@ static void memory_of_authors_is_bounded(void **state)
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         for (int k = 0; k < LONG_STEPS; k++) {
             record_long(names[i], "", LONG);
+            free_dropped();
         }
     }
     assert_depth("anna", 0, 0);
@@ -655,6 +685,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(authors_are_bounded, set_up, tear_down),
         cmocka_unit_test_setup_teardown(memory_of_steps_is_bounded, set_up, tear_down),
         cmocka_unit_test_setup_teardown(memory_of_authors_is_bounded, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(steps_that_are_gone_are_handed_out, set_up, tear_down),
         cmocka_unit_test_setup_teardown(groups_take_the_memory_of_one_edit, set_up, tear_down),
         cmocka_unit_test(undos_and_redos_cancel),
         cmocka_unit_test(a_log_gives_back_the_steps),

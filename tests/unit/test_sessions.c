@@ -509,6 +509,23 @@ static void a_long_document_and_notices_are_an_answer_to_hello(void **state)
     silent_hub_close(hub);
 }
 
+/* They are freed without the lock, so the room may not leave them in its history. */
+static void steps_that_are_gone_leave_the_room(void **state)
+{
+    struct hub *hub = silent_hub_open();
+    struct room *room = make_scene(hub, "steps", ball);
+    size_t bytes;
+
+    (void)state;
+    for (int i = 0; i < LIMIT_UNDO_GROUPS + 3; i++) {
+        edit_scene(room, "[{'op':'set','at':'/name','value':'next'}]");
+        hub_lock(hub);
+        assert_null(history_take_dropped(room->history, &bytes));
+        hub_unlock(hub);
+    }
+    silent_hub_close(hub);
+}
+
 /* --- long scenes --- */
 
 /* As many equations as one client may send at once. With the ids that they get, the edit is longer
@@ -695,6 +712,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_light_edit_waits_for_readers_of_the_state_it_kept),
         cmocka_unit_test(who_missed_much_gets_the_document),
         cmocka_unit_test(a_long_document_and_notices_are_an_answer_to_hello),
+        cmocka_unit_test(steps_that_are_gone_leave_the_room),
         cmocka_unit_test(what_grew_by_edits_is_read_again),
         cmocka_unit_test(edits_do_not_grow_a_scene_without_end),
         cmocka_unit_test(an_undo_without_space_stays),
