@@ -13,9 +13,9 @@ enum { SLICE_SHORT_US = 1000, SLICE_LONG_US = 20000 };
 void slice_short(void);
 /* As long as Linux gives by itself. */
 void slice_normal(void);
-/* For a thread that computes while others wait for nothing from it: it is no longer than now until
- * it has its share, but a thread with normal slices that is woken meanwhile goes first. Without that
- * it waits for the next tick of the kernel, up to 4 ms. */
+/* For a thread that computes while nobody waits for it. Its share of the time stays the same, but a
+ * thread with shorter slices that is woken meanwhile goes first. Without that it waits for the next
+ * tick of the kernel, up to 4 ms. */
 void slice_long(void);
 
 #endif

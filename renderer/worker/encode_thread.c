@@ -47,7 +47,7 @@ struct encode_thread {
     int started; /* of the threads */
     pthread_mutex_t lock;
     pthread_cond_t change[LANES]; /* something for that thread */
-    struct work *works, *done; /* in order of arrival */
+    struct work *works, *done;    /* in order of arrival */
     bool stop;
     int wake_fd;
 };

@@ -39,7 +39,7 @@ export const INCLUDES = {
     'server/cli': ['protocol', 'renderer/renderer.h', 'renderer/worker/worker.h', ...BASE, 'server/store', 'server/serve.h'],
 };
 // What the files that all of server/ may use include themselves.
-const BASE_INCLUDES = ['protocol', ...BASE];
+const BASE_INCLUDES = ['protocol', 'renderer/slice.h', ...BASE];
 
 // Programs and processes of their own: no other file of their layer includes them.
 const ENDS = ['renderer/spmd', 'renderer/algebra', 'renderer/worker'];
