@@ -102,7 +102,7 @@ static bool change(struct cubes *cubes, struct engine_program *program, const fl
         if (cubes->trunk) {
             trunk_end(cubes->trunk);
         }
-        program->width->renew(program, cubes, params, changed);
+        program->width->renew(program, cubes, params, changed, NULL);
     }
     free(changed);
     memcpy(cubes->params, params, numbers_bytes(program));
@@ -118,19 +118,6 @@ static bool are_near(size_t fresh, const struct engine_program *before,
     const size_t lost = before->count + fresh - after->count;
 
     return fresh <= after->count / OTHER_PART && lost <= before->count / OTHER_PART;
-}
-
-/* In all tapes. Those that hold one that is gone are other tapes then, and made again with those of
- * their children (renew.c): its index may be another operation's. */
-static void rename_operations(struct cubes *cubes, const struct matches *matches)
-{
-    for (int i = 0; matches->moved && i < ENGINE_THREADS * ENGINE_SPACES; i++) {
-        struct cells *cells = &cubes->of[i / ENGINE_SPACES][i % ENGINE_SPACES];
-        matches_rename(matches, cells->tapes, cells->used);
-    }
-    if (matches->moved && cubes->trunk) {
-        trunk_rename(cubes->trunk, matches);
-    }
 }
 
 /* Squares of pictures stay where nothing in them has another number, and rays step as before. */
@@ -167,11 +154,11 @@ static bool follow(struct kept *one, const struct engine_picture *picture)
     if (follows) {
         cubes->edit++;
         keep_seen(cubes, one->program, picture, matches.renumbered);
-        rename_operations(cubes, &matches);
         if (cubes->trunk) {
+            trunk_rename(cubes->trunk, &matches);
             trunk_end(cubes->trunk);
         }
-        program->width->renew(program, cubes, picture->params, matches.changed);
+        program->width->renew(program, cubes, picture->params, matches.changed, &matches);
         cubes->params = memory_resize(cubes->params, numbers_bytes(program), 1);
         memcpy(cubes->params, picture->params, numbers_bytes(program));
     }

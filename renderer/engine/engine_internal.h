@@ -205,9 +205,9 @@ struct engine_width {
     size_t call_count;
     struct engine_drawn (*draw)(struct engine_canvas *canvas, const struct engine_work *work);
     /* Renews cubes for new numbers of the field. `changed`: for each operation, whether any of its
-     * numbers changed (changes.h). */
+     * numbers changed (changes.h). `matches`: its tapes hold other indices; NULL: they do not. */
     void (*renew)(struct engine_program *program, struct cubes *cubes, const float *params,
-                  const uint8_t *changed);
+                  const uint8_t *changed, const struct matches *matches);
     void (*hand_destroy)(struct hand *hand); /* NULL is nothing */
     uint64_t (*distances)(const struct engine_program *program, const float *params,
                           const float (*points)[3], size_t count, float half, float *out);

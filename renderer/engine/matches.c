@@ -277,8 +277,8 @@ void matches_find(const struct matches_side *before, const struct matches_side *
     match_beside(&s);
     out->renumbered = is_renumbered(&s);
     match_changed(&s);
-    for (size_t i = 0; i < out->before && !out->moved; i++) {
-        out->moved = out->now[i] != i;
+    while (out->first < out->before && out->now[out->first] == out->first) {
+        out->first++;
     }
     free(s.was);
 }
@@ -290,11 +290,17 @@ void matches_finish(struct matches *matches)
     *matches = (struct matches){0};
 }
 
-void matches_rename(const struct matches *matches, uint32_t *words, size_t count)
+bool matches_rename(const struct matches *matches, uint32_t *words, size_t count)
 {
+    bool any = false;
+
     for (size_t i = 0; i < count; i++) {
         const uint32_t index = words[i] & TAPE_INDEX;
-        words[i] = (words[i] & ~(uint32_t)TAPE_INDEX) |
-                   (index < matches->before ? matches->now[index] : MATCH_NONE);
+        if (index >= matches->first) {
+            words[i] = (words[i] & ~(uint32_t)TAPE_INDEX) |
+                       (index < matches->before ? matches->now[index] : MATCH_NONE);
+            any = true;
+        }
     }
+    return any;
 }

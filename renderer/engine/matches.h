@@ -17,7 +17,7 @@ struct matches {
     size_t before;    /* how many there were */
     uint8_t *changed; /* of each operation after: 1 if none before is the same, with its numbers */
     size_t fresh;     /* how many these are */
-    bool moved;       /* one has another index, or is no more */
+    size_t first;     /* of those before that have another index, or are no more; `before`: none */
     bool renumbered;  /* the same shape may have another leaf, or another slot of its material */
 };
 
@@ -28,7 +28,13 @@ void matches_find(const struct matches_side *before, const struct matches_side *
                   struct matches *out);
 void matches_finish(struct matches *matches);
 
-/* From indices before to those after. One that is no more becomes MATCH_NONE. */
-void matches_rename(const struct matches *matches, uint32_t *words, size_t count);
+/* Whether any index is another one. */
+static inline bool matches_move(const struct matches *matches)
+{
+    return matches->first < matches->before;
+}
+/* From indices before to those after. One that is no more becomes MATCH_NONE. Answers whether one
+ * may be another index now. */
+bool matches_rename(const struct matches *matches, uint32_t *words, size_t count);
 
 #endif

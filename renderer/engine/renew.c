@@ -9,10 +9,11 @@ enum { GROWN = 4 }; /* a tape that becomes so many times as long: new cubes cost
 
 struct renewal {
     struct lanes *c;
-    const uint8_t *changed; /* of each operation */
-    uint32_t edit;          /* its number */
-    float mask;             /* of the space */
-    uint16_t *drops;        /* what children left out before, while they are looked at again */
+    const uint8_t *changed;        /* of each operation */
+    const struct matches *matches; /* NULL: tapes hold the indices that there are now */
+    uint32_t edit;                 /* its number */
+    float mask;                    /* of the space */
+    uint16_t *drops; /* what children left out before, while they are looked at again */
     struct checkpoint *checkpoints; /* of then */
     size_t room, checkpoint_room;
     struct siblings siblings; /* tapes of the children of the cube that is renewed */
@@ -406,6 +407,9 @@ static void renew_cells(struct renewal *r)
     if (cells->wasted > WASTED_LIMIT && 2 * cells->wasted > cells->used) {
         compact(cells);
     }
+    if (r->matches && matches_move(r->matches)) { /* tapes with one that is gone are made again */
+        matches_rename(r->matches, cells->tapes, cells->used);
+    }
     cells->news[0].run = r->edit;
     const struct past past = renew_root(r);
     if (cells->at[0].children) {
@@ -415,13 +419,14 @@ static void renew_cells(struct renewal *r)
     }
 }
 
-static void renew_spaces(struct engine_program *program, struct cells *spaces, const float *params,
-                         const uint8_t *changed, uint32_t edit)
+/* Those of one thread. `r` has what has changed. */
+static void renew_spaces(struct renewal r, struct engine_program *program, struct cells *spaces,
+                         const float *params)
 {
     static const float masks[ENGINE_SPACES] = {0.0f, FIELD_FAR, -FIELD_FAR};
     struct lanes *c = aligned_room(sizeof *c);
-    struct renewal r = {.c = c, .changed = changed, .edit = edit};
 
+    r.c = c;
     memset(c, 0, sizeof *c);
     c->program = program;
     c->params = params;

@@ -33,6 +33,7 @@ struct crew {
     struct cubes *cubes;
     const float *params;
     const uint8_t *changed;
+    const struct matches *matches;
 };
 
 static struct hand *hand_create(const struct engine_canvas *canvas, int threads, int number)
@@ -347,19 +348,21 @@ static void renew_some(struct crew *crew)
     int i;
 
     while ((i = atomic_fetch_add(&crew->next, 1)) < ENGINE_THREADS) {
-        renew_spaces(crew->program, crew->cubes->of[i], crew->params, crew->changed,
-                     crew->cubes->edit);
+        const struct renewal renewal = {
+            .changed = crew->changed, .matches = crew->matches, .edit = crew->cubes->edit};
+        renew_spaces(renewal, crew->program, crew->cubes->of[i], crew->params);
     }
 }
 
 static void renew(struct engine_program *program, struct cubes *cubes, const float *params,
-                  const uint8_t *changed)
+                  const uint8_t *changed, const struct matches *matches)
 {
     struct crew crew = {.task = renew_some,
                         .program = program,
                         .cubes = cubes,
                         .params = params,
-                        .changed = changed};
+                        .changed = changed,
+                        .matches = matches};
     int used = 0;
 
     for (int i = 0; i < ENGINE_THREADS; i++) {

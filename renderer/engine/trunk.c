@@ -70,18 +70,20 @@ void trunk_destroy(struct trunk *trunk)
     free(trunk);
 }
 
+/* A child's tape holds no operation that its parent's does not. */
 static void cube_rename(struct trunk_cube *cube, const struct matches *matches)
 {
     for (int i = 0; cube && i < CUBE_CHILDREN; i++) {
         struct trunk_tape *tape = &cube->tapes[i];
-        matches_rename(matches, tape->words, tape->words ? tape->count : 0);
-        cube_rename(tape->cube, matches);
+        if (!tape->words || matches_rename(matches, tape->words, tape->count)) {
+            cube_rename(tape->cube, matches);
+        }
     }
 }
 
 void trunk_rename(struct trunk *trunk, const struct matches *matches)
 {
-    for (int i = 0; i < ENGINE_SPACES; i++) {
+    for (int i = 0; matches_move(matches) && i < ENGINE_SPACES; i++) {
         for (struct trunk_cube *root = trunk->roots[i]; root; root = root->older) {
             cube_rename(root, matches);
         }

@@ -2,6 +2,7 @@
 /* All of the engine that depends on LANES, the width of its vectors. */
 #include "cubes.h"
 #include "explored.h"
+#include "matches.h"
 #include "renderer/crash.h"
 #include "renderer/image/half.h"
 

@@ -40,6 +40,8 @@ static struct matches_side make(const char *beside, const char *children)
     return (struct matches_side){program, program->field->params};
 }
 
+#define FLAG (~(uint32_t)TAPE_INDEX) /* what a word of a tape has beside an index */
+
 struct found {
     size_t fresh, lost;
     bool moved, renumbered;
@@ -54,6 +56,10 @@ static struct found find_of(struct matches_side from, struct matches_side to)
     matches_find(&from, &to, &matches);
     for (size_t i = 0; i < from.program->count; i++) {
         const uint32_t now = matches.now[i];
+        uint32_t word = (uint32_t)i | FLAG;
+        const bool any = matches_rename(&matches, &word, 1);
+        assert_int_equal(word, now | FLAG);
+        assert_true(any || now == i);
         kept += now != MATCH_NONE;
         assert_true(now == MATCH_NONE || now < to.program->count);
         for (size_t k = 0; k < i; k++) {
@@ -63,7 +69,7 @@ static struct found find_of(struct matches_side from, struct matches_side to)
             assert_int_equal(from.program->operations[i].op, to.program->operations[now].op);
         }
     }
-    const struct found found = {matches.fresh, from.program->count - kept, matches.moved,
+    const struct found found = {matches.fresh, from.program->count - kept, matches_move(&matches),
                                 matches.renumbered};
     matches_finish(&matches);
     engine_program_destroy((struct engine_program *)from.program);

@@ -9,6 +9,7 @@
 
 #include <pthread.h>
 
+#include "renderer/engine/matches.h"
 #include "renderer/engine/trunk.h"
 
 enum { THREADS = 4, DEPTH = 2000, WORDS = TRUNK_TAPE };
@@ -117,12 +118,62 @@ static void short_tapes_and_those_of_parents_are_told(void **state)
     trunk_destroy(trunk);
 }
 
+/* --- after an edit --- */
+
+enum { BEFORE = 300, FIRST = 200 };
+
+/* A tape with the operations from this one on; answers the cube of its child. */
+static struct trunk_cube *put_from(struct trunk *trunk, struct trunk_tape *tape, uint32_t operation)
+{
+    uint32_t words[WORDS];
+
+    for (uint32_t i = 0; i < WORDS; i++) {
+        words[i] = operation + i;
+    }
+    trunk_put(trunk, tape, words, WORDS);
+    return tape->cube;
+}
+
+static void assert_renamed(const struct trunk_tape *tape, const struct matches *matches,
+                           uint32_t operation)
+{
+    for (uint32_t i = 0; i < WORDS; i++) {
+        assert_int_equal(tape->words[i], matches->now[operation + i]);
+    }
+}
+
+static void operations_are_renamed_in_all_cubes(void **state)
+{
+    (void)state;
+    uint32_t now[BEFORE];
+    const struct matches matches = {.now = now, .before = BEFORE, .first = FIRST};
+    struct trunk *trunk = trunk_create();
+    struct trunk_cube *older = trunk_root(trunk, 0, 1), *root = trunk_root(trunk, 0, 2);
+
+    for (uint32_t i = 0; i < BEFORE; i++) {
+        now[i] = i < FIRST ? i : i < BEFORE - 1 ? i + 1 : MATCH_NONE;
+    }
+    struct trunk_cube *child = put_from(trunk, &root->tapes[2], FIRST - WORDS / 2);
+    trunk_put(trunk, &child->tapes[5], NULL, WORDS);
+    struct trunk_cube *same = child->tapes[5].cube;
+    put_from(trunk, &same->tapes[7], FIRST - WORDS + 1);
+    put_from(trunk, &same->tapes[0], FIRST - WORDS);
+    put_from(trunk, &older->tapes[0], BEFORE - WORDS);
+    trunk_rename(trunk, &matches);
+    assert_renamed(&root->tapes[2], &matches, FIRST - WORDS / 2);
+    assert_renamed(&same->tapes[7], &matches, FIRST - WORDS + 1);
+    assert_renamed(&same->tapes[0], &matches, FIRST - WORDS);
+    assert_renamed(&older->tapes[0], &matches, BEFORE - WORDS);
+    trunk_destroy(trunk);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_make_each_thing_once),
         cmocka_unit_test(roots_are_of_a_space_and_a_size),
         cmocka_unit_test(short_tapes_and_those_of_parents_are_told),
+        cmocka_unit_test(operations_are_renamed_in_all_cubes),
     };
 
     return cmocka_run_group_tests_name("trunk of the cubes", tests, NULL, NULL);
