@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Measures what tests/bench/README.md tells, and writes it and its plots anew (make speeds).
 // `node tests/speeds.mjs BUILD [FILE]`; FILE: numbers of an earlier run, instead of a new one.
+import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
@@ -26,8 +27,10 @@ function measureAll() {
     };
 }
 
-const table = (head, rows) =>
-    [head, head.map(() => '---'), ...rows].map((cells) => `| ${cells.join(' | ')} |`).join('\n');
+function table(head, rows) {
+    assert.ok(rows.flat().every((cell) => cell !== undefined), `a figure is missing under ${head}`);
+    return [head, head.map(() => '---'), ...rows].map((cells) => `| ${cells.join(' | ')} |`).join('\n');
+}
 
 function orbitTable({ runs }) {
     const rows = runs.map((run) => [
@@ -44,7 +47,7 @@ function editTable({ runs }) {
     const kinds = ['numeric', 'hide', 'structural', 'undo', 'isolate'];
     const rows = runs.map((run) => [
         run.nodes.toLocaleString('en'),
-        run.picture_ms,
+        run.numeric.picture_ms,
         ...kinds.map((kind) => `${run[kind].p50_ms}, ${run[kind].p95_ms}`),
     ]);
     return table(['nodes', 'another view', ...kinds], rows);
