@@ -136,11 +136,21 @@ static void pass(struct hub *hub)
     (void)hub;
 }
 
+/* The server may stop before it has adopted the connection, or after. */
+static struct session *open_none(struct hub *hub, void (*wake)(void *connection), void *connection)
+{
+    (void)hub;
+    (void)wake;
+    (void)connection;
+    return NULL;
+}
+
 /* Under the hub's lock a thread wakes a connection; the server stops before it has let go. */
 static void one_rings_after_the_end(void **state)
 {
     struct metrics metrics = {0};
-    const struct ws_app app = {.metrics = &metrics, .lock = pass, .unlock = pass};
+    const struct ws_app app = {
+        .metrics = &metrics, .lock = pass, .unlock = pass, .open = open_none};
     const struct http_head head = {0};
     struct error err = {0};
     struct ws *ws = ws_create(&app, &err);
