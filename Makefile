@@ -81,7 +81,7 @@ endif
 # --- the program ---
 
 # The engine's files are parts of one for each width of vectors; renderer/spmd is a tool of the build.
-apart := $(wildcard $(S)/renderer/spmd/*.c) $(foreach f,width interpret checkpoints cells notes bounds code points siblings explore survey explore_again renew textures tile verify sparse environment_texels threads,$(S)/renderer/engine/$(f).c)
+apart := $(wildcard $(S)/renderer/spmd/*.c) $(foreach f,width interpret checkpoints cells notes bounds code points siblings explore survey explore_again renew textures tile verify passes sparse environment_texels threads,$(S)/renderer/engine/$(f).c)
 # The program that finds equations; FLINT is linked with it alone.
 algebra := $(wildcard $(S)/renderer/algebra/*.c)
 sources := $(filter-out $(apart) $(algebra),$(foreach d,protocol renderer server,$(wildcard $(S)/$(d)/*.c $(S)/$(d)/*/*.c)))

@@ -147,7 +147,8 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     renderer_use_stage(renderer, params->stage);
     renderer_use_programs(renderer, params->programs);
     renderer->draw = draw_create(&renderer->gl, renderer->info.software, params->tile_side);
-    renderer_share(renderer, false);
+    draw_set_pause(renderer->draw, &(struct engine_pause){.wanted = params->is_wanted,
+                                                          .data = params->is_wanted_data});
     renderer->environments = environments_create(&renderer->gl);
     renderer->pictures = pictures_create();
     renderer->programs =
@@ -268,12 +269,7 @@ double renderer_pace(const struct renderer *renderer)
 
 void renderer_share(struct renderer *renderer, bool shared)
 {
-    const struct renderer_params *params = &renderer->params;
-
     renderer->shared = shared;
-    draw_set_pause(renderer->draw, &(struct engine_pause){.wanted = params->is_wanted,
-                                                          .data = params->is_wanted_data,
-                                                          .soon = shared});
 }
 
 void renderer_set_pace(struct renderer *renderer, double pace)

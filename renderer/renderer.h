@@ -63,7 +63,7 @@ struct renderer_params {
     void (*on_read)(void *data, const char *image);
     void *on_compile_data;
     /* Whether the thread that draws has something else to do: asked by any thread that draws,
-     * between parts of a tile, which goes on with the next step then. NULL: never. */
+     * between vectors of a tile, which goes on with the next step then. NULL: never. */
     bool (*is_wanted)(void *data);
     void *is_wanted_data;
 };

@@ -103,12 +103,11 @@ struct engine_rect {
     int x, y, width, height;
 };
 
-/* Whether a call shall end before its tile is drawn: asked between two parts of the tile, by any
- * thread that draws. */
+/* Whether a call shall end before its tile is drawn: asked by all threads that draw, each time that
+ * a few vectors of rays are drawn. */
 struct engine_pause {
     bool (*wanted)(void *data); /* NULL: never */
     void *data;
-    bool soon; /* parts are small, which takes some more time in total */
 };
 
 struct engine_drawn {

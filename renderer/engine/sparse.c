@@ -6,7 +6,7 @@
  * its 16 pixels are neighbours, whose rays cost less together than a few that are far apart. */
 
 /* First rays are listed in squares so wide, because the rays of a vector wait for the slowest. */
-enum { SPARSE_GROUP = 4 * SPARSE_STEP };
+enum { SPARSE_GROUP = 4 * SPARSE_STEP, SPARSE_PASSES = 2 };
 
 /* More than this between two corners of a block asks for rays between them. */
 #define SEEN_MOST 0.06f  /* of what seen_at() gives */
@@ -74,7 +74,7 @@ static void list_group(struct hand *hand, int left, int top)
     }
 }
 
-static void draw_corners(struct hand *hand)
+static void list_corners(struct hand *hand)
 {
     hand->listed_count = 0;
     for (int y = 0; y < hand->height; y += SPARSE_GROUP) {
@@ -82,7 +82,6 @@ static void draw_corners(struct hand *hand)
             list_group(hand, x, y);
         }
     }
-    add_to_listed(hand, 0);
 }
 
 /* All pixels that the tile or its margin shows but the first, which has a ray. */
@@ -149,22 +148,22 @@ static void fill_block(struct hand *hand, const int corners[4])
     }
 }
 
-/* The tile is whole blocks wide and high, and one pixel more. */
-static void draw_sparse(struct hand *hand)
+/* A row of them, whose corners have rays. The tile is whole blocks wide and high, and one pixel
+ * more. */
+static void draw_blocks(struct hand *hand, int number)
 {
-    draw_corners(hand);
-    for (int y = 0; y < hand->height - 1; y += SPARSE_STEP) {
-        for (int x = 0; x < hand->width - 1; x += SPARSE_STEP) {
-            const int at = y * SIDE + x, below = at + SPARSE_STEP * SIDE;
-            const int corners[4] = {at, at + SPARSE_STEP, below, below + SPARSE_STEP};
-            if (is_even(hand, corners)) {
-                fill_block(hand, corners);
-                if (hand->wants_distances) {
-                    fill_distances(hand, corners);
-                }
-            } else {
-                draw_block(hand, x, y);
+    const int y = number * SPARSE_STEP;
+
+    for (int x = 0; x < hand->width - 1; x += SPARSE_STEP) {
+        const int at = y * SIDE + x, below = at + SPARSE_STEP * SIDE;
+        const int corners[4] = {at, at + SPARSE_STEP, below, below + SPARSE_STEP};
+        if (is_even(hand, corners)) {
+            fill_block(hand, corners);
+            if (hand->wants_distances) {
+                fill_distances(hand, corners);
             }
+        } else {
+            draw_block(hand, x, y);
         }
     }
 }

@@ -9,9 +9,7 @@ enum {
     /* The side of a part, in pixels. Parts of 32 cost 5 % more in total than those of 64 (TILE),
      * parts of 16 cost 20 %. */
     PART_LEAST = 16,
-    PART_SOON = 32, /* at most, where a call shall end soon */
-    PARTS = 2,      /* of a tile, for each thread, unless they would be too small; */
-    PARTS_SOON = 4, /* where a call shall end soon */
+    PARTS = 2, /* of a tile, for each thread, unless they would be too small */
 };
 
 struct crew {
@@ -79,7 +77,7 @@ static void hand_destroy(struct hand *hand)
 }
 
 /* What it knows of the field is worth keeping from tile to tile. */
-static struct hand *hand_at(const struct crew *crew, int number)
+static struct hand *hand_at(struct crew *crew, int number)
 {
     struct hand **hand = &crew->canvas->hands[number];
 
@@ -87,7 +85,7 @@ static struct hand *hand_at(const struct crew *crew, int number)
         *hand = hand_create(crew->canvas, crew->threads, number);
     }
     (*hand)->work = crew->work;
-    (*hand)->rays = 0;
+    (*hand)->paused = &crew->paused;
     (*hand)->lanes.noted = crew->canvas->seen ? (*hand)->noted : NULL;
     return *hand;
 }
@@ -98,16 +96,34 @@ static struct hand *hand_of(struct crew *crew)
     return hand_at(crew, atomic_fetch_add(&crew->next_thread, 1));
 }
 
-static void draw_part(struct crew *crew, struct hand *hand, const struct engine_part *part)
+static void set_taken(struct crew *crew, struct engine_part *part, int thread, bool taken)
 {
-    const struct engine_rect rect = part->rect;
+    pthread_mutex_lock(&crew->lock);
+    part->thread = thread;
+    part->taken = taken;
+    pthread_mutex_unlock(&crew->lock);
+}
 
-    draw_tile(hand, rect.x, rect.y, rect.width, rect.height);
+/* Goes on with a part that this hand had begun. After a pause the same hand has to end it. */
+static void draw_part(struct crew *crew, struct hand *hand, struct engine_part *part)
+{
+    if (hand->part != part) {
+        begin_part(hand, part->rect);
+        begin_samples(hand);
+        hand->part = part;
+    }
+    if (draw_samples(hand)) {
+        end_part(hand);
+        hand->part = NULL;
+    } else {
+        set_taken(crew, part, hand->number, false);
+    }
     atomic_fetch_add(&crew->rays, hand->rays);
     hand->rays = 0;
 }
 
-/* The next part that this thread may draw; NULL: there is none. */
+/* The next part that this thread may draw; NULL: there is none. Threads take parts in order, so one
+ * that a thread has begun comes before those that it has not. */
 static struct engine_part *next_part(struct crew *crew, int thread)
 {
     struct engine_part *part = NULL;
@@ -124,22 +140,14 @@ static struct engine_part *next_part(struct crew *crew, int thread)
     return part;
 }
 
-static bool is_pause_wanted(const struct engine_pause *pause)
-{
-    return pause->wanted && pause->wanted(pause->data);
-}
-
 /* Who drew a part before has its cubes. */
 static void take_parts(struct crew *crew)
 {
     struct hand *hand = hand_of(crew);
-    const struct engine_part *part;
+    struct engine_part *part;
 
     while (!atomic_load(&crew->paused) && (part = next_part(crew, hand->number))) {
         draw_part(crew, hand, part);
-        if (is_pause_wanted(crew->work->pause)) {
-            atomic_store(&crew->paused, true);
-        }
     }
 }
 
@@ -156,9 +164,10 @@ static bool has_parts_left(const struct engine_canvas *canvas)
 /* Of threads that did not run. */
 static void draw_rest(struct crew *crew)
 {
-    for (size_t i = 0; i < crew->canvas->part_count; i++) {
-        const struct engine_part *part = &crew->canvas->parts[i];
+    for (size_t i = 0; i < crew->canvas->part_count && !atomic_load(&crew->paused); i++) {
+        struct engine_part *part = &crew->canvas->parts[i];
         if (!part->taken) {
+            part->taken = true;
             draw_part(crew, hand_at(crew, part->thread), part);
         }
     }
@@ -172,11 +181,9 @@ static int count_parts(struct engine_rect tile, int side)
 /* As large as leaves some parts of the tile to each thread. */
 static int side_of(const struct crew *crew)
 {
-    const bool soon = crew->work->pause->soon;
-    const int least = crew->threads * (soon ? PARTS_SOON : PARTS);
-    int side = soon ? PART_SOON : TILE;
+    int side = TILE;
 
-    while (side > PART_LEAST && count_parts(crew->work->tile, side) < least) {
+    while (side > PART_LEAST && count_parts(crew->work->tile, side) < PARTS * crew->threads) {
         side /= 2;
     }
     return side;
@@ -326,10 +333,8 @@ static struct engine_drawn draw(struct engine_canvas *canvas, const struct engin
         crew.task = take_parts;
         run_crew(&crew,
                  canvas->part_count < ENGINE_THREADS ? (int)canvas->part_count : ENGINE_THREADS);
-        drawn.paused = atomic_load(&crew.paused) && has_parts_left(canvas);
-        if (!drawn.paused) {
-            draw_rest(&crew);
-        }
+        draw_rest(&crew);
+        drawn.paused = has_parts_left(canvas);
         drawn.rays = atomic_load(&crew.rays);
     }
     if (canvas->seen) {

@@ -15,6 +15,14 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
+struct hand;
+
+/* Goes over the pixels of a part once. */
+struct pass {
+    int number, steps, done;
+    void (*step)(struct hand *hand, int number);
+};
+
 /* A thread's own. `left`, `top`: of the tile with its margin, in the picture. `inner`: the tile's
  * own pixels in it. */
 struct hand {
@@ -26,6 +34,11 @@ struct hand {
     uint64_t rays; /* that followed others */
     int left, top, width, height;
     struct engine_rect inner;
+    /* The part that it has begun and not ended, NULL: none, and how far that is: passes.c. */
+    const struct engine_part *part;
+    struct pass pass;
+    atomic_bool *paused;           /* all threads stop for now */
+    uint32_t times;                /* of the cubes, before the part was begun */
     float starts[BLOCKS * BLOCKS]; /* how far the rays of each block are free */
     float geometry[SIDE * SIDE * 4], pixels[SIDE * SIDE * 4], counted[SIDE * SIDE * 2];
     float distances[SIDE * SIDE]; /* of a sparse tile, where they are wanted */
@@ -65,6 +78,7 @@ static void begin_notes(struct hand *hand)
 
     find_squares(hand->columns, hand->width, inner.x, inner.width, zone, 1);
     find_squares(hand->rows, hand->height, inner.y, inner.height, zone, SQUARES);
+    hand->times = cubes_times(hand->lanes.spaces);
     hand->noted->part++;
     hand->noted->count = hand->noted->value_bytes = 0;
     memset(hand->noted->materials, 0, sizeof hand->noted->materials);
@@ -158,15 +172,14 @@ static void take_values(const struct noted *noted, struct seen_square *const mad
     }
 }
 
-/* `times`: of the cubes, before the part was drawn. Where they were made anew meanwhile, it is not
- * known what is used. */
-static void end_notes(struct hand *hand, uint32_t times)
+/* Where cubes were made anew since the part was begun, it is not known what is used. */
+static void end_notes(struct hand *hand)
 {
     struct noted *noted = hand->noted;
     struct seen_square *made[PART_SQUARES] = {NULL};
     size_t counts[PART_SQUARES] = {0};
 
-    if (times != cubes_times(hand->lanes.spaces)) {
+    if (hand->times != cubes_times(hand->lanes.spaces)) {
         return;
     }
     for (size_t i = 0; i < noted->count; i++) {
@@ -341,27 +354,6 @@ static void add_sample(struct hand *hand, vb m, vi x, vi y, int index)
     }
 }
 
-static void add_to_all(struct hand *hand, int index)
-{
-    for (int y = 0; y < hand->height; y += LANES / ACROSS) {
-        for (int x = 0; x < hand->width; x += ACROSS) {
-            const vi left = x + lanes_number % ACROSS, top = y + lanes_number / ACROSS;
-            add_sample(hand, (left < hand->width) & (top < hand->height), left, top, index);
-        }
-    }
-}
-
-static void add_to_listed(struct hand *hand, int index)
-{
-    for (int i = 0; i < hand->listed_count; i += LANES) {
-        vi at = vi_zero;
-        for (int k = 0; k < LANES && i + k < hand->listed_count; k++) {
-            at[k] = hand->listed[i + k];
-        }
-        add_sample(hand, i + lanes_number < hand->listed_count, at % SIDE, at / SIDE, index);
-    }
-}
-
 /* Pixels that are worth more samples, of those that had one. */
 static void list_edges(struct hand *hand)
 {
@@ -455,38 +447,6 @@ static void write_distances(struct hand *hand, const struct engine_output *outpu
     }
 }
 
-#include "sparse.c"
-
-static void draw_samples(struct hand *hand)
-{
-    const struct engine_work *work = hand->work;
-    const bool few = hand->canvas->picture.smoothing == ENGINE_ADAPTIVE;
-    int index = work->from;
-
-    if (index == 0) {
-        memset(hand->pixels, 0, sizeof hand->pixels);
-        memset(hand->counted, 0, sizeof hand->counted);
-        if (hand->canvas->picture.sparse) {
-            draw_sparse(hand);
-            return;
-        }
-        add_to_all(hand, index++);
-        if (few && work->until > 1) {
-            list_edges(hand);
-        }
-    } else {
-        keep(hand, true);
-        list_again(hand, index);
-    }
-    for (; index < work->until; index++) {
-        if (few) {
-            add_to_listed(hand, index);
-        } else {
-            add_to_all(hand, index);
-        }
-    }
-}
-
 /* A stretch of the picture's pixels to whole blocks of a sparse tile, with the line behind. */
 static void widen(int *from, int *until)
 {
@@ -494,13 +454,13 @@ static void widen(int *from, int *until)
     *until = ((*until - 1) & -SPARSE_STEP) + SPARSE_STEP + 1;
 }
 
-/* Pixels x, y to x + width, y + height of the picture. */
-static void draw_tile(struct hand *hand, int x, int y, int width, int height)
+/* Its samples follow (passes.c). */
+static void begin_part(struct hand *hand, struct engine_rect rect)
 {
     const struct engine_picture *picture = &hand->canvas->picture;
     const int margin = picture->margin;
-    int left = x - margin, top = y - margin;
-    int right = x + width + margin, bottom = y + height + margin;
+    int left = rect.x - margin, top = rect.y - margin;
+    int right = rect.x + rect.width + margin, bottom = rect.y + rect.height + margin;
 
     if (picture->sparse) {
         widen(&left, &right);
@@ -510,16 +470,18 @@ static void draw_tile(struct hand *hand, int x, int y, int width, int height)
     hand->top = hand->dispatch.origin[1] = top;
     hand->width = right - left;
     hand->height = bottom - top;
-    hand->inner = (struct engine_rect){x - left, y - top, width, height};
-    const uint32_t times = cubes_times(hand->lanes.spaces);
+    hand->inner = (struct engine_rect){rect.x - left, rect.y - top, rect.width, rect.height};
     if (hand->lanes.noted) {
         begin_notes(hand);
     }
     hand->wants_distances = wants_distances(hand);
     find_starts(hand);
-    draw_samples(hand);
+}
+
+static void end_part(struct hand *hand)
+{
     if (hand->lanes.noted) {
-        end_notes(hand, times);
+        end_notes(hand);
     }
     for (size_t i = 0; i < hand->work->output_count; i++) {
         if (is_light(&hand->work->outputs[i])) {

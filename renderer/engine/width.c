@@ -20,6 +20,7 @@
 #include "verify.c"
 
 #include "environment_texels.c"
+#include "passes.c"
 #include "threads.c"
 
 #include "explore.c"

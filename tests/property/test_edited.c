@@ -4,6 +4,7 @@
  * pictures of half the width and height: 10,000 take some ten minutes. */
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,10 +28,11 @@ enum {
     MOVES = 3,
     LARGER = 4,
     EDITS_OF_MANY = 24,
-    REMOVED = 60
+    REMOVED = 60,
+    PAUSES_EVERY = 11 /* times that it is asked for */
 };
 
-/* The other one forgets what it knows before each picture. */
+/* The other one forgets what it knows before each picture, and never pauses. */
 static struct renderer *renderer, *forgetful;
 
 /* A scene in both. */
@@ -391,17 +393,27 @@ static void a_shape_more_changes_the_steps(void **state)
     }
 }
 
+/* Pauses come in the middle of parts of tiles. */
+static bool is_wanted(void *data)
+{
+    static atomic_uint asked;
+
+    (void)data;
+    return atomic_fetch_add(&asked, 1) % PAUSES_EVERY == 0;
+}
+
 static int set_up(void **state)
 {
-    const struct renderer_params params = {.device = {.kind = DEVICE_NONE, .index = -1},
-                                           .stage = RENDER_ENGINE,
-                                           .threads = 2,
-                                           .tile_side = 56};
+    struct renderer_params params = {.device = {.kind = DEVICE_NONE, .index = -1},
+                                     .stage = RENDER_ENGINE,
+                                     .threads = 2,
+                                     .tile_side = 56};
     struct error err = {0};
 
     (void)state;
-    renderer = renderer_create(&params, &err);
     forgetful = renderer_create(&params, &err);
+    params.is_wanted = is_wanted;
+    renderer = renderer_create(&params, &err);
     return renderer && forgetful ? 0 : -1;
 }
 
