@@ -13,12 +13,13 @@ enum { PATIENT_NICE = 5, NS = 1000000000, NS_OF_MS = 1000000 };
 
 static struct {
     pthread_mutex_t lock;
-    pthread_cond_t pause;
-    atomic_bool goes_on;
-} drawing = {.lock = PTHREAD_MUTEX_INITIALIZER, .pause = PTHREAD_COND_INITIALIZER};
+    pthread_cond_t change;
+    atomic_int what; /* enum patient_drawing */
+} drawing = {.lock = PTHREAD_MUTEX_INITIALIZER, .change = PTHREAD_COND_INITIALIZER};
 
-/* Until which time of its processor clock a thread works beside drawing. */
+/* Until which time of its processor clock a thread works beside drawing, and beside what. */
 static _Thread_local int64_t works_until_ns;
+static _Thread_local int works_beside;
 
 typedef void *thread_main(void *);
 
@@ -71,22 +72,22 @@ static int64_t worked_ns(void)
     return (int64_t)now.tv_sec * NS + now.tv_nsec;
 }
 
-void patient_draws(bool draws)
+void patient_draws(enum patient_drawing what)
 {
-    if (atomic_load(&drawing.goes_on) == draws) {
+    if (atomic_load(&drawing.what) == (int)what) {
         return;
     }
     pthread_mutex_lock(&drawing.lock);
-    atomic_store(&drawing.goes_on, draws);
-    pthread_cond_broadcast(&drawing.pause);
+    atomic_store(&drawing.what, (int)what);
+    if (what < PATIENT_SHARED) { /* nobody waits for urgent pictures alone to end */
+        pthread_cond_broadcast(&drawing.change);
+    }
     pthread_mutex_unlock(&drawing.lock);
 }
 
-void patient_give_way(void)
+/* False: the time is over first. */
+static bool wait_for_less(enum patient_drawing least)
 {
-    if (!atomic_load(&drawing.goes_on) || worked_ns() < works_until_ns) {
-        return;
-    }
     struct timespec until = now_of(CLOCK_MONOTONIC);
     int result = 0;
 
@@ -94,9 +95,22 @@ void patient_give_way(void)
     until.tv_sec += until.tv_nsec / NS;
     until.tv_nsec %= NS;
     pthread_mutex_lock(&drawing.lock);
-    while (result == 0 && atomic_load(&drawing.goes_on)) {
-        result = pthread_cond_clockwait(&drawing.pause, &drawing.lock, CLOCK_MONOTONIC, &until);
+    while (result == 0 && atomic_load(&drawing.what) >= (int)least) {
+        result = pthread_cond_clockwait(&drawing.change, &drawing.lock, CLOCK_MONOTONIC, &until);
     }
     pthread_mutex_unlock(&drawing.lock);
-    works_until_ns = result == 0 ? 0 : worked_ns() + PATIENT_WORK_MS * NS_OF_MS;
+    return result == 0;
+}
+
+void patient_give_way(enum patient_drawing least)
+{
+    const int what = atomic_load(&drawing.what);
+
+    if (what < (int)least || (what <= works_beside && worked_ns() < works_until_ns)) {
+        return;
+    }
+    const bool paused = wait_for_less(least) ||
+                        (atomic_load(&drawing.what) == PATIENT_URGENT && wait_for_less(least));
+    works_until_ns = paused ? 0 : worked_ns() + PATIENT_WORK_MS * NS_OF_MS;
+    works_beside = atomic_load(&drawing.what);
 }

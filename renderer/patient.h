@@ -12,14 +12,22 @@
 bool patient_create(pthread_t *out, void *(*main)(void *), void *data);
 
 enum {
-    PATIENT_WAIT_MS = 10, /* that a thread waits for drawing to pause, at most; */
+    PATIENT_WAIT_MS = 10, /* that a thread waits for drawing to pause, at most; twice for urgent */
     PATIENT_WORK_MS = 2,  /* after that it works so long beside drawing */
 };
 
-/* Called by the drawing thread: whether it has something to draw from now on. */
-void patient_draws(bool draws);
-/* Called between two pieces of work of a patient thread: waits while something is drawn, so that
- * pictures find the processors and their caches free, but goes on at times in any case. */
-void patient_give_way(void);
+/* What is drawn. */
+enum patient_drawing {
+    PATIENT_FREE,   /* nothing */
+    PATIENT_ALONE,  /* the pictures of one client */
+    PATIENT_SHARED, /* those of several */
+    PATIENT_URGENT, /* an urgent one of several */
+};
+
+/* Called by the drawing thread: what it draws from now on. */
+void patient_draws(enum patient_drawing what);
+/* Called between two pieces of work of a patient thread: waits while `least` or more is drawn, so
+ * that pictures find the processors and their caches free, but goes on at times in any case. */
+void patient_give_way(enum patient_drawing least);
 
 #endif

@@ -29,7 +29,7 @@ void slice_long(void)
     set_runtime((uint64_t)SLICE_LONG_US * NS_OF_US);
 }
 
-void slice_normal(void)
+void slice_drawing(void)
 {
-    set_runtime(0);
+    set_runtime((uint64_t)SLICE_DRAWING_US * NS_OF_US);
 }

@@ -45,13 +45,18 @@ static int64_t clock_in_us(clockid_t clock)
 
 /* --- the thread --- */
 
+static void give_way(void)
+{
+    patient_give_way(PATIENT_ALONE);
+}
+
 static void read_file(struct picture *picture)
 {
     static const struct frame_uniforms any = {.sky_kind = SKY_IMAGE}; /* a picture needs no more */
     const struct asset *asset = picture->asset;
     struct decoded decoded = {0};
 
-    if (image_decode(asset->bytes, asset->length, patient_give_way, &decoded, &picture->err)) {
+    if (image_decode(asset->bytes, asset->length, give_way, &decoded, &picture->err)) {
         engine_maps_make(&any, decoded.rgba, decoded.width, decoded.height, picture->maps);
     }
 }

@@ -14,9 +14,10 @@
 #include "renderer/slice.h"
 
 enum {
-    SLICE_PIXELS = 1 << 16, /* encoded at a time: some 8 ms of PNG */
+    SLICE_PIXELS = 1 << 14, /* encoded at a time: some 2 ms of PNG */
     FULL_BYTES = 32 << 20,
     SMALL_PIXELS = 1 << 16, /* a JPEG of them takes less time than a thread takes to wake up */
+    LARGE_PIXELS = 1 << 22, /* with more, no picture is urgent */
 };
 
 enum lane { LANE_URGENT, LANE_PATIENT, LANES };
@@ -91,9 +92,14 @@ static void drop_rows(struct work *work)
 
 /* --- the threads --- */
 
+bool encode_is_urgent(int priority, uint64_t pixels)
+{
+    return priority <= ENCODE_URGENT && pixels <= LARGE_PIXELS;
+}
+
 static enum lane lane_of(const struct work *work)
 {
-    return work->result.priority <= ENCODE_URGENT ? LANE_URGENT : LANE_PATIENT;
+    return encode_is_urgent(work->result.priority, work->pixels) ? LANE_URGENT : LANE_PATIENT;
 }
 
 static bool is_before(const struct work *a, const struct work *b)
@@ -184,15 +190,27 @@ static bool encode(struct encode_thread *encode_thread, struct work *work)
     return true;
 }
 
+/* Where one client draws alone, encoding goes on beside. Without the lock. */
+static void give_way(struct encode_thread *encode_thread)
+{
+    pthread_mutex_unlock(&encode_thread->lock);
+    patient_give_way(PATIENT_SHARED);
+    pthread_mutex_lock(&encode_thread->lock);
+}
+
 static void serve(struct encode_thread *encode_thread, enum lane lane)
 {
     pthread_mutex_lock(&encode_thread->lock);
     while (!encode_thread->stop) {
         struct work *work = find_next(encode_thread, lane);
 
+        if (work && lane == LANE_PATIENT) {
+            give_way(encode_thread);
+            work = find_next(encode_thread, lane); /* another one has come, or this one is gone */
+        }
         if (work) {
             encode(encode_thread, work);
-        } else {
+        } else if (!encode_thread->stop) {
             pthread_cond_wait(&encode_thread->change[lane], &encode_thread->lock);
         }
     }
@@ -220,7 +238,7 @@ static bool start_threads(struct encode_thread *encode_thread)
     slice_short(); /* it encodes a picture and waits for the next; drawing never waits */
     const bool urgent =
         pthread_create(&threads[LANE_URGENT], NULL, serve_urgent, encode_thread) == 0;
-    slice_normal();
+    slice_drawing();
     if (!urgent) {
         return false;
     }

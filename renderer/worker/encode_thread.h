@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Threads that encode pictures as their rows come, so that a large one holds up neither drawing nor
- * answers. Urgent pictures have one of their own; the other one leaves the processors to those who
- * draw. After a few rows of one picture each looks whether another goes first. A small JPEG is
- * encoded by its owner, at its end. */
+ * answers. Urgent pictures, unless they are large, have one of their own; the other one leaves the
+ * processors to those who draw. After a few rows of one picture each looks whether another goes
+ * first. A small JPEG is encoded by its owner, at its end. */
 #ifndef RENDERER_ENCODE_THREAD_H
 #define RENDERER_ENCODE_THREAD_H
 
@@ -12,6 +12,9 @@
 enum { ENCODE_URGENT = 1 }; /* the highest priority number of urgent pictures */
 
 struct encode_thread;
+
+/* Of a picture with so many pixels. */
+bool encode_is_urgent(int priority, uint64_t pixels);
 
 /* A picture being encoded. It belongs to the thread until encode_thread_take gives it back. */
 struct encoding {

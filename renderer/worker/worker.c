@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "renderer/crash.h"
+#include "renderer/patient.h"
 #include "renderer/slice.h"
 #include "worker_internal.h"
 
@@ -155,6 +156,9 @@ static void run(struct worker *w)
         if (w->out_sent < w->out_length) {
             fds[0].events |= POLLOUT;
         }
+        if (!job) {
+            patient_draws(PATIENT_FREE);
+        }
         if (!wait(w, fds, timeout_of(w, job))) {
             w->status = 1;
             return;
@@ -235,7 +239,7 @@ int worker_run(int fd, const struct worker_params *params)
     struct error err = {0};
 
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    slice_normal(); /* drawing computes; the front that started it has short ones */
+    slice_drawing(); /* the front that started it has short ones */
     crash_watch();
     confine_privileges();
     if (params->confine != CONFINE_OFF) {

@@ -188,6 +188,11 @@ static bool can_go_on(const struct worker *w, const struct worker_job *job)
            !encode_thread_is_full(w->encode_thread, job->encoding);
 }
 
+static uint64_t pixels_of(const struct worker_job *job)
+{
+    return (uint64_t)job->width * (uint64_t)job->height;
+}
+
 /* That of the account whose turn it is. Who would need the textures that another's tile is in lets
  * that go on in its own turn, so the tile is as urgent as whatever waits for it. */
 struct worker_job *worker_choose_job(struct worker *w)
@@ -197,9 +202,9 @@ struct worker_job *worker_choose_job(struct worker *w)
     turns_begin(&w->turns);
     for (struct worker_job *job = w->jobs; job; job = job->next) {
         if (is_drawing(job) && (job == within || can_go_on(w, job))) {
-            const struct turns_offer offer = {
-                job->priority, (uint64_t)job->width * (uint64_t)job->height,
-                within && job_is_sampled(job->drawing) ? within : job};
+            const struct turns_offer offer = {job->priority, pixels_of(job),
+                                              within && job_is_sampled(job->drawing) ? within
+                                                                                     : job};
 
             turns_offer(&w->turns, job->turn, &offer);
         }
@@ -319,10 +324,21 @@ static enum job_state take_turn(struct worker *w, struct worker_job *job)
     return state;
 }
 
+static enum patient_drawing drawing_of(const struct worker *w, const struct worker_job *job)
+{
+    if (!job) {
+        return PATIENT_FREE;
+    }
+    if (now_us() >= w->shared_until_us) {
+        return PATIENT_ALONE;
+    }
+    return encode_is_urgent(job->priority, pixels_of(job)) ? PATIENT_URGENT : PATIENT_SHARED;
+}
+
 void worker_step(struct worker *w, struct worker_job *job)
 {
     tell_drawing(w, job);
-    patient_draws(job != NULL);
+    patient_draws(drawing_of(w, job));
     if (!job) {
         return;
     }

@@ -11,13 +11,16 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
+#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
 
 #include "protocol/memory.h"
+#include "renderer/patient.h"
 #include "renderer/worker/encode_thread.h"
+#include "server/clock.h"
 
 enum { WIDTH = 640, HEIGHT = 120, BAND = 30 }; /* too many for the owner to encode */
 
@@ -26,7 +29,7 @@ enum { THREADS = 16 };
 static int wake_fd;
 static int others; /* threads before those for pictures; sanitizers have some */
 static struct encode_thread *encode_thread;
-static struct stream_encoder *streams[2]; /* of the pictures that were begun */
+static struct stream_encoder *streams[4]; /* of the pictures that were begun */
 static int stream_count;
 
 /* Answers how many there are; `out`: the first of them. */
@@ -82,19 +85,25 @@ static struct image make_image(int width, int height, unsigned seed)
     return image;
 }
 
-static struct encoding *begin(const struct image *image, const struct encode_params *params)
+static struct encoding *begin_of(const struct image *image, const struct encode_params *params,
+                                 int priority)
 {
     struct image shapes[AOV_COUNT] = {[AOV_COLOR] = *image};
     struct error err = {0};
     struct stream_encoder *stream = streams[stream_count++] =
         stream_encoder_open(&picture_stream, NULL);
     struct encoding *encoding =
-        encode_thread_begin(encode_thread, stream, shapes, params, 0, NULL, &err);
+        encode_thread_begin(encode_thread, stream, shapes, params, priority, NULL, &err);
 
     if (!encoding) {
         fail_msg("%s", err.message);
     }
     return encoding;
+}
+
+static struct encoding *begin(const struct image *image, const struct encode_params *params)
+{
+    return begin_of(image, params, 0);
 }
 
 static void add(struct encoding *encoding, const struct image *image, int y, int height)
@@ -272,20 +281,21 @@ static void close_slow(void *state)
 static const struct stream_class slow_stream = {open_slow, begin_slow, add_slow, end_slow,
                                                 close_slow};
 
-static void urgent_encodings_come_first(void **state)
+/* Of a slow picture of this size and priority, and an urgent one. */
+static void assert_urgent_first(int priority, struct image slow_size)
 {
     const struct encode_params params = {.format = CODEC_JPEG};
-    struct image image = make_image(WIDTH, HEIGHT, 7), shapes[AOV_COUNT] = {[AOV_COLOR] = image};
+    const struct image shapes[AOV_COUNT] = {[AOV_COLOR] = slow_size};
+    struct image image = make_image(WIDTH, HEIGHT, 7);
     struct stream_encoder *stream = streams[stream_count++] =
         stream_encoder_open(&slow_stream, NULL);
-    struct encoding *slow = encode_thread_begin(encode_thread, stream, shapes, &params,
-                                                ENCODE_URGENT + 1, NULL, NULL),
+    struct encoding *slow = encode_thread_begin(encode_thread, stream, shapes, &params, priority,
+                                                NULL, NULL),
                     *first;
 
-    (void)state;
     sem_init(&stuck, 0, 0);
     sem_init(&let_go, 0, 0);
-    add(slow, &image, 0, BAND);
+    add(slow, &image, 0, 1); /* at once */
     encode_thread_end(encode_thread, slow, true);
     sem_wait(&stuck);
     struct encoding *urgent = begin(&image, &params);
@@ -303,19 +313,62 @@ static void urgent_encodings_come_first(void **state)
     image_finish(&image);
 }
 
+static void urgent_encodings_come_first(void **state)
+{
+    const struct image small = {.width = WIDTH, .height = HEIGHT};
+    const struct image large = {.width = 4096, .height = 2160};
+
+    (void)state;
+    assert_urgent_first(ENCODE_URGENT + 1, small);
+    assert_urgent_first(ENCODE_URGENT, large);
+}
+
+/* Drawing has all processors. */
+static void patient_encodings_wait_while_something_is_drawn(void **state)
+{
+    const struct encode_params params = {.format = CODEC_PNG};
+    struct image image = make_image(WIDTH, BAND, 8);
+    struct encoding *encoding = begin_of(&image, &params, ENCODE_URGENT + 1);
+
+    (void)state;
+    patient_draws(PATIENT_URGENT);
+    const int64_t begun_us = clock_us();
+    add(encoding, &image, 0, BAND);
+    encode_thread_end(encode_thread, encoding, true);
+    assert_ptr_equal(take(), encoding);
+    patient_draws(PATIENT_FREE);
+    assert_true(clock_us() - begun_us >= (int64_t)2000 * PATIENT_WAIT_MS);
+    assert_true(encoding->ok);
+    encoding_destroy(encoding);
+    image_finish(&image);
+}
+
+/* Of this thread. */
+static long own_waits(void)
+{
+    struct rusage usage;
+
+    getrusage(RUSAGE_THREAD, &usage);
+    return usage.ru_nvcsw;
+}
+
 /* Nobody has to be waited for. */
 static void the_owner_encodes_a_small_jpeg(void **state)
 {
     const struct encode_params params = {.format = CODEC_JPEG};
     struct image image = make_image(WIDTH, BAND, 5);
-    struct encoding *encoding = begin(&image, &params);
+    struct encoding *encoding = begin_of(&image, &params, ENCODE_URGENT + 1);
     uint8_t *bytes;
     size_t length;
 
     (void)state;
+    patient_draws(PATIENT_URGENT); /* by the owner, who does not wait for himself */
     add(encoding, &image, 0, BAND);
     assert_null(encode_thread_take(encode_thread));
+    const long waits = own_waits();
     encode_thread_end(encode_thread, encoding, true);
+    assert_int_equal(own_waits(), waits);
+    patient_draws(PATIENT_FREE);
     encode_thread_end(encode_thread, encoding, false); /* cancelled before it is taken */
     assert_ptr_equal(encode_thread_take(encode_thread), encoding);
     assert_true(encoding->ok);
@@ -389,6 +442,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(given_up, start, stop),
         cmocka_unit_test_setup_teardown(full_queues_are_encoded_in_parts, start, stop),
         cmocka_unit_test_setup_teardown(urgent_encodings_come_first, start, stop),
+        cmocka_unit_test_setup_teardown(patient_encodings_wait_while_something_is_drawn, start,
+                                        stop),
         cmocka_unit_test_setup_teardown(the_owner_encodes_a_small_jpeg, start, stop),
         cmocka_unit_test_setup_teardown(a_small_jpeg_wakes_no_thread, start, stop),
         cmocka_unit_test_setup_teardown(left_behind, start, stop),

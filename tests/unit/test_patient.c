@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <sys/resource.h>
 
 #include <cmocka.h>
 
@@ -23,19 +24,19 @@ static double wait_of(void)
 {
     const int64_t begun_us = clock_us();
 
-    patient_give_way();
+    patient_give_way(PATIENT_ALONE);
     return (double)(clock_us() - begun_us) / 1000;
 }
 
 static void it_waits_while_something_is_drawn(void **state)
 {
     (void)state;
-    patient_draws(true);
+    patient_draws(PATIENT_ALONE);
     for (int i = 0; i < 3; i++) {
         assert_true(wait_of() >= PATIENT_WAIT_MS);
         work(PATIENT_WORK_MS);
     }
-    patient_draws(false);
+    patient_draws(PATIENT_FREE);
 }
 
 static void it_works_for_a_while_after_that(void **state)
@@ -43,18 +44,33 @@ static void it_works_for_a_while_after_that(void **state)
     int waits = 0;
 
     (void)state;
-    patient_draws(true);
+    patient_draws(PATIENT_ALONE);
     for (int i = 0; i < 100; i++) {
         waits += wait_of() >= PATIENT_WAIT_MS; /* a busy machine may stop it for as long */
     }
     assert_true(waits < 50);
-    patient_draws(false);
+    patient_draws(PATIENT_FREE);
+}
+
+/* Also where it would still work beside what is not urgent. */
+static void it_waits_twice_as_long_for_urgent_pictures(void **state)
+{
+    (void)state;
+    patient_draws(PATIENT_ALONE);
+    work(PATIENT_WORK_MS); /* what is left from before */
+    patient_give_way(PATIENT_ALONE);
+    patient_draws(PATIENT_URGENT);
+    for (int i = 0; i < 3; i++) {
+        assert_true(wait_of() >= 2 * PATIENT_WAIT_MS);
+        work(PATIENT_WORK_MS);
+    }
+    patient_draws(PATIENT_FREE);
 }
 
 static void *draw_for_a_moment(void *data)
 {
     (void)data;
-    patient_draws(false);
+    patient_draws(PATIENT_FREE);
     return NULL;
 }
 
@@ -64,13 +80,33 @@ static void it_goes_on_when_nothing_is_drawn(void **state)
 
     (void)state;
     for (int i = 0; i < 1000; i++) {
-        patient_give_way(); /* waits for nothing, however often */
+        patient_give_way(PATIENT_ALONE); /* waits for nothing, however often */
     }
-    patient_draws(true);
+    patient_draws(PATIENT_ALONE);
     work(2 * PATIENT_WORK_MS);
     assert_int_equal(pthread_create(&other, NULL, draw_for_a_moment, NULL), 0);
-    patient_give_way();
+    patient_give_way(PATIENT_ALONE);
     pthread_join(other, NULL);
+}
+
+/* Of this thread. */
+static long count_waits(void)
+{
+    struct rusage usage;
+
+    getrusage(RUSAGE_THREAD, &usage);
+    return usage.ru_nvcsw;
+}
+
+static void it_waits_for_no_less_than_it_has_to(void **state)
+{
+    (void)state;
+    patient_draws(PATIENT_ALONE);
+    work(PATIENT_WORK_MS);
+    const long waits = count_waits();
+    patient_give_way(PATIENT_SHARED);
+    assert_int_equal(count_waits(), waits);
+    patient_draws(PATIENT_FREE);
 }
 
 int main(void)
@@ -78,6 +114,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_waits_while_something_is_drawn),
         cmocka_unit_test(it_works_for_a_while_after_that),
+        cmocka_unit_test(it_waits_twice_as_long_for_urgent_pictures),
+        cmocka_unit_test(it_waits_for_no_less_than_it_has_to),
         cmocka_unit_test(it_goes_on_when_nothing_is_drawn),
     };
 
