@@ -8,7 +8,11 @@
 #include "job_internal.h"
 #include "protocol/memory.h"
 
-enum { PACE_WRONG_US = 1600000 }; /* so slow a tile is begun anew, with its row, in smaller ones */
+enum {
+    PACE_WRONG_US = 1600000, /* so slow a tile is begun anew, with its row, in smaller ones */
+    ROW_BYTES = 4 << 20,     /* a row of tiles takes no more while others wait, */
+    ROW_HALVED = 128,        /* if it is at least so high */
+};
 
 static int larger(int a, int b)
 {
@@ -54,6 +58,23 @@ static int part_of(int length, int side)
     return whole < side ? whole : side;
 }
 
+/* Of a row of tiles: `side`, or less where that takes much memory, which the kernel has to clear
+ * while others wait. */
+static int height_of(const struct job *job, int side)
+{
+    size_t bytes = 0;
+
+    for (int i = 0; i < AOV_COUNT; i++) {
+        bytes += job->formats[i] ? (size_t)job->formats[i]->read_bytes : 0;
+    }
+    bytes *= (size_t)job->region.width;
+    while (company_of(job) == PACE_SHARED_PAUSING && side >= ROW_HALVED &&
+           (size_t)side * bytes > ROW_BYTES) {
+        side /= 2;
+    }
+    return side;
+}
+
 static void begin_row(struct job *job, int y)
 {
     const struct draw *draw = job->renderer->draw;
@@ -73,7 +94,7 @@ static void begin_row(struct job *job, int y)
     }
     job->row = (struct row){.y = y,
                             .side = side,
-                            .height = part_of(job->region.height - y, side),
+                            .height = part_of(job->region.height - y, height_of(job, side)),
                             .width = part_of(job->region.width, side),
                             .pace = pace};
 }
@@ -327,7 +348,7 @@ static void open_rows(struct job *job, const struct tile *tile)
 
     for (int i = 0; i < AOV_COUNT; i++) {
         if (job->formats[i]) {
-            job->rows[i] = memory_alloc(pixels, (size_t)job->formats[i]->read_bytes);
+            job->rows[i] = memory_resize(NULL, pixels, (size_t)job->formats[i]->read_bytes);
         }
     }
 }
