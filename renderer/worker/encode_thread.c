@@ -190,7 +190,7 @@ static bool encode(struct encode_thread *encode_thread, struct work *work)
     return true;
 }
 
-/* Where one client draws alone, encoding goes on beside. Without the lock. */
+/* Without the lock. Where one client draws alone, encoding goes on beside that. */
 static void give_way(struct encode_thread *encode_thread)
 {
     pthread_mutex_unlock(&encode_thread->lock);
@@ -202,17 +202,14 @@ static void serve(struct encode_thread *encode_thread, enum lane lane)
 {
     pthread_mutex_lock(&encode_thread->lock);
     while (!encode_thread->stop) {
-        struct work *work = find_next(encode_thread, lane);
-
-        if (work && lane == LANE_PATIENT) {
-            give_way(encode_thread);
-            work = find_next(encode_thread, lane); /* another one has come, or this one is gone */
-        }
-        if (work) {
-            encode(encode_thread, work);
-        } else if (!encode_thread->stop) {
+        if (!find_next(encode_thread, lane)) {
             pthread_cond_wait(&encode_thread->change[lane], &encode_thread->lock);
+            continue;
         }
+        if (lane == LANE_PATIENT) {
+            give_way(encode_thread);
+        }
+        encode(encode_thread, find_next(encode_thread, lane)); /* that may be another one now */
     }
     pthread_mutex_unlock(&encode_thread->lock);
 }

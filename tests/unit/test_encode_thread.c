@@ -11,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
-#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -21,6 +20,7 @@
 #include "renderer/patient.h"
 #include "renderer/worker/encode_thread.h"
 #include "server/clock.h"
+#include "tests/support/waits.h"
 
 enum { WIDTH = 640, HEIGHT = 120, BAND = 30 }; /* too many for the owner to encode */
 
@@ -343,15 +343,6 @@ static void patient_encodings_wait_while_something_is_drawn(void **state)
     image_finish(&image);
 }
 
-/* Of this thread. */
-static long own_waits(void)
-{
-    struct rusage usage;
-
-    getrusage(RUSAGE_THREAD, &usage);
-    return usage.ru_nvcsw;
-}
-
 /* Nobody has to be waited for. */
 static void the_owner_encodes_a_small_jpeg(void **state)
 {
@@ -365,9 +356,9 @@ static void the_owner_encodes_a_small_jpeg(void **state)
     patient_draws(PATIENT_URGENT); /* by the owner, who does not wait for himself */
     add(encoding, &image, 0, BAND);
     assert_null(encode_thread_take(encode_thread));
-    const long waits = own_waits();
+    const long waits = waits_of_thread();
     encode_thread_end(encode_thread, encoding, true);
-    assert_int_equal(own_waits(), waits);
+    assert_int_equal(waits_of_thread(), waits);
     patient_draws(PATIENT_FREE);
     encode_thread_end(encode_thread, encoding, false); /* cancelled before it is taken */
     assert_ptr_equal(encode_thread_take(encode_thread), encoding);

@@ -4,12 +4,12 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <sys/resource.h>
 
 #include <cmocka.h>
 
 #include "renderer/patient.h"
 #include "server/clock.h"
+#include "tests/support/waits.h"
 
 static void work(int ms)
 {
@@ -89,23 +89,14 @@ static void it_goes_on_when_nothing_is_drawn(void **state)
     pthread_join(other, NULL);
 }
 
-/* Of this thread. */
-static long count_waits(void)
-{
-    struct rusage usage;
-
-    getrusage(RUSAGE_THREAD, &usage);
-    return usage.ru_nvcsw;
-}
-
 static void it_waits_for_no_less_than_it_has_to(void **state)
 {
     (void)state;
     patient_draws(PATIENT_ALONE);
     work(PATIENT_WORK_MS);
-    const long waits = count_waits();
+    const long waits = waits_of_thread();
     patient_give_way(PATIENT_SHARED);
-    assert_int_equal(count_waits(), waits);
+    assert_int_equal(waits_of_thread(), waits);
     patient_draws(PATIENT_FREE);
 }
 
