@@ -657,13 +657,14 @@ test('a client that stops reading costs no memory and leaves others their frames
     const text = 'x'.repeat(190);
     const ops = (i) => Array.from({ length: 250 }, () => ({ op: 'set', at: '/nodes/ball/name', value: text + i }));
     const churn = async (edits) => {
-        const from = fast.frames.length;
+        const [from, heard] = [fast.frames.length, fast.messages.length];
         for (let i = 0; i < edits; i += 1) {
             fast.look({ camera: { position: [0, 1, 5 + (i % 50) / 50] } });
             await fast.next('applied', { edit: fast.change(ops(i), { group: 'one' }) }, fast.messages.length);
             await sleep(5);
         }
         await fast.nextFrame((frame) => frame.seq === fast.seq && frame.revision > fast.edit, from);
+        await fast.next('applied', { edit: fast.edit, durable: true }, heard); // none waits for the disk
         return edits * 60000;
     };
     await churn(50);
