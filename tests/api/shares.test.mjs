@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import http from 'node:http';
 import { after, before, test } from 'node:test';
-import { ask, counter, sleep, standStill, startDaemon, until } from '../support/daemon.mjs';
+import { ask, counter, cpuSecondsOf, sleep, standStill, startDaemon, until } from '../support/daemon.mjs';
 import { largeDocument } from '../support/large.mjs';
 import { Live } from '../support/live.mjs';
 
@@ -268,12 +268,18 @@ test('who asks what is under the pointer without end leaves half of the time to 
     guest.look({ ...from(0), width: 64, height: 64 });
     const rests = () => counter(daemon, 'pick_rests_total');
     const before = await rests();
+    const [start, cpu] = [Date.now(), cpuSecondsOf(daemon.pid)];
     for (let last = AT_ONCE; (await rests()) < before + 3; last += AT_ONCE) {
         for (let pick = last - AT_ONCE + 1; pick <= last; pick += 1) {
             guest.say({ type: 'pick', pick, seq: guest.seq, x: pick % 64, y: (7 * pick) % 64 });
         }
         await guest.next('picked', { pick: last });
-        assert.ok(last < PICKS, 'it rests');
+        if (last >= PICKS) {
+            // A busy machine gives the server less than that anyway.
+            const share = (1000 * (cpuSecondsOf(daemon.pid) - cpu)) / (Date.now() - start);
+            assert.ok(share < 0.5, `it does not rest, and takes ${share} of a processor`);
+            break;
+        }
     }
     await guest.close();
 });
